@@ -47,7 +47,7 @@ REFUSAL_LOG_PERIOD_S = 1.0
 def declare_stop_file(node: Node) -> None:
     """Declare the parameter that names the file in which a node keeps its stops."""
     default = os.environ.get(STOP_FILE_VARIABLE, "")
-    node.declare_parameter(STOP_FILE, default, fixed("File in which stops outlive the node; empty: none"))
+    node.declare_parameter(STOP_FILE, default, fixed("File that keeps stops after the node has ended; empty: none"))
 
 
 class EmergencyStop:

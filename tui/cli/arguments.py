@@ -93,7 +93,7 @@ def attach_parser() -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         "bot-console attach",
         description="Open the console on a running system, without starting a robot. The names of rqt's tools do "
-        "the same, each with its pane.",
+        "the same, and open the matching pane.",
         formatter_class=argparse.RawDescriptionHelpFormatter,
     )
     parser.add_argument("--pane", default="overview", help="pane to open first (default: overview)")
@@ -124,8 +124,10 @@ def parse_attach(words: Sequence[str], parser: argparse.ArgumentParser) -> tuple
 
 def _add_appearance(parser: argparse.ArgumentParser) -> None:
     add = parser.add_argument
-    add("--read-only", action="store_true", help="watch and stop only: set, drive, start and end nothing")
-    add("--layout", default="", metavar="NAME", help="layout to start with, such as overview, which a new user sees")
+    add("--read-only", action="store_true", help="only watch and stop the robot: set, drive, start and end nothing")
+    add(
+        "--layout", default="", metavar="NAME", help="layout to start with, such as overview, the default of a new user"
+    )
     add("--perspective-file", default="", metavar="FILE", help="layout file or rqt perspective to start with")
     add(
         "--theme",

@@ -91,7 +91,7 @@ def parse(words: Sequence[str]) -> AttachOptions:
     which = parser.add_mutually_exclusive_group()
     which.add_argument("--ros", action="store_true", help="attach to the ROS 2 of this machine, through its own rclpy")
     which.add_argument(
-        "--embedded", action="store_true", help="attach to a system of bot-console, even if ROS 2 is installed"
+        "--embedded", action="store_true", help="attach to a bot-console system, even if ROS 2 is installed"
     )
     appearance, given = parse_attach(words, parser)
     way = None if given.ros or given.embedded else network_way(parser, given)

@@ -28,19 +28,19 @@ def add_play_arguments(play: argparse.ArgumentParser) -> None:
     play.add_argument("-r", "--rate", type=positive, default=1.0, help="speed; 2 plays twice as fast")
     play.add_argument("-l", "--loop", action="store_true", help="start again at the end")
     play.add_argument("-d", "--delay", type=seconds, default=0.0, metavar="S", help="wait before the start")
-    play.add_argument("-p", "--start-paused", action="store_true", help="space begins")
+    play.add_argument("-p", "--start-paused", action="store_true", help="begin when space is pressed")
     play.add_argument("--disable-keyboard-controls", action="store_true")
     clock = play.add_mutually_exclusive_group()
     clock.add_argument("--clock", nargs="?", type=positive, const=40.0, default=0.0, help="publish /clock (40 Hz)")
     clock.add_argument("--clock-topics", nargs="+", default=[], metavar="TOPIC", help="/clock before each of these")
     clock.add_argument("--clock-topics-all", action="store_true", help="/clock before each message")
-    play.add_argument("--playback-duration", type=float, default=-1.0, metavar="S", help="stop after so many seconds")
+    play.add_argument("--playback-duration", type=float, default=-1.0, metavar="S", help="stop after this many seconds")
     until = play.add_mutually_exclusive_group()
     until.add_argument("--playback-until-sec", type=float, default=-1.0, metavar="TIME", help="s since the epoch")
     until.add_argument("--playback-until-nsec", type=int, default=-1, metavar="TIME", help="ns since the epoch")
     play.add_argument("--wait-for-all-acked", type=int, metavar="MS", help="at the end; 0 waits forever")
     play.add_argument("--disable-loan-message", action="store_true", help="not used")
-    play.add_argument("--publish-service-requests", action="store_true", help="cannot be done here")
+    play.add_argument("--publish-service-requests", action="store_true", help="not supported here")
     play.add_argument("--service-requests-source", choices=["service_introspection", "client_introspection"])
     play.add_argument("--progress-bar-update-rate", type=int, metavar="HZ", help="not used")
     play.add_argument("--progress-bar-separation-lines", type=int, metavar="N", help="not used")
@@ -60,9 +60,9 @@ def _add_reading(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ros", action="store_true", help=ON_MACHINE)
     parser.add_argument(
         "-i", "--input", nargs="+", action="append", default=[], metavar=("BAG", "STORAGE"),
-        help="a further bag to play at the same time",
+        help="another bag to play at the same time",
     )  # fmt: skip
-    parser.add_argument("-s", "--storage", choices=["mcap", "sqlite3"], help="not used: recognised by the file")
+    parser.add_argument("-s", "--storage", choices=["mcap", "sqlite3"], help="not used: detected from the file")
     parser.add_argument("--read-ahead-queue-size", type=int, metavar="N", help="not used")
     parser.add_argument(
         "--topics", nargs="+", metavar="TOPIC", help="only these topics; default: all that do not control a robot"

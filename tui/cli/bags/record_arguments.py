@@ -31,14 +31,18 @@ def add_record_arguments(record: argparse.ArgumentParser) -> None:
     _add_filters(record)
     _add_discovery(record)
     record.add_argument("-f", "--serialization-format", choices=["", "cdr"], default="", help="only cdr")
-    record.add_argument("-b", "--max-bag-size", type=int, default=0, metavar="BYTES", help="begin another file then")
-    record.add_argument("-d", "--max-bag-duration", type=int, default=0, metavar="S", help="begin another file then")
-    record.add_argument("--max-cache-size", type=int, metavar="BYTES", help="in snapshot mode: what is kept")
+    record.add_argument(
+        "-b", "--max-bag-size", type=int, default=0, metavar="BYTES", help="start a new file at this size"
+    )
+    record.add_argument(
+        "-d", "--max-bag-duration", type=int, default=0, metavar="S", help="start a new file after this time"
+    )
+    record.add_argument("--max-cache-size", type=int, metavar="BYTES", help="in snapshot mode: how much is kept")
     record.add_argument("--disable-keyboard-controls", action="store_true", help="space does not pause")
     record.add_argument("--start-paused", action="store_true", help="record nothing until space or ~/resume")
     record.add_argument("--use-sim-time", action="store_true", help="stamp messages with the time of /clock")
     record.add_argument("--node-name", default="rosbag2_recorder", metavar="NAME")
-    record.add_argument("--custom-data", nargs="*", default=[], metavar="KEY=VALUE", help="facts for the metadata")
+    record.add_argument("--custom-data", nargs="*", default=[], metavar="KEY=VALUE", help="entries for the metadata")
     record.add_argument(
         "--snapshot-mode", action="store_true", help="keep messages in memory until `bag snapshot` writes them"
     )
@@ -72,15 +76,17 @@ def _add_filters(record: argparse.ArgumentParser) -> None:
 
 
 def _add_discovery(record: argparse.ArgumentParser) -> None:
-    record.add_argument("--include-unpublished-topics", action="store_true", help="also topics nobody publishes yet")
     record.add_argument(
-        "--include-hidden-topics", action="store_true", help="also names with a part that begins with _"
+        "--include-unpublished-topics", action="store_true", help="also topics that nobody publishes yet"
+    )
+    record.add_argument(
+        "--include-hidden-topics", action="store_true", help="also hidden topics, with a part that begins with _"
     )
     record.add_argument("--no-discovery", action="store_true", help="only topics that exist at the start")
     record.add_argument(
-        "-p", "--polling-interval", type=int, default=100, metavar="MS", help="between looks for topics"
+        "-p", "--polling-interval", type=int, default=100, metavar="MS", help="between two searches for topics"
     )
-    record.add_argument("--ignore-leaf-topics", action="store_true", help="not topics without a subscription")
+    record.add_argument("--ignore-leaf-topics", action="store_true", help="leave out topics without a subscription")
     record.add_argument("--qos-profile-overrides-path", type=existing_file, metavar="FILE", help="not used")
 
 

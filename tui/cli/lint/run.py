@@ -34,7 +34,7 @@ def run(words: list[str]) -> int:
     """Run the checks; 0 if nothing was found, 1 if something was, 2 for wrong usage."""
     parser = argparse.ArgumentParser(
         "bot-console lint",
-        description="Find parameters without description, range, unit or validation, and values that reach none.",
+        description="Find parameters without a description, range, unit or validation, and values that are never used.",
         epilog="exit codes: 0 nothing found, 1 something found, 2 wrong usage",
     )
     parser.add_argument(
@@ -47,7 +47,7 @@ def run(words: list[str]) -> int:
     parser.add_argument(
         "--json",
         action="store_true",
-        help="print the findings as JSON (use `hint`: its former name `mend` is left out from the next release on)",
+        help="print the findings as JSON (use `hint`: its former name `mend` will be removed in the next release)",
     )
     given = parser.parse_args(words)
     if (Path(given.what) / INDEX).is_file():

@@ -65,7 +65,7 @@ def parser() -> argparse.ArgumentParser:
 
     def reads_one(verb: argparse.ArgumentParser) -> argparse.ArgumentParser:
         verb.add_argument("bag", type=named_folder)
-        verb.add_argument("-s", "--storage", choices=["mcap", "sqlite3"], help="not used: recognised by the file")
+        verb.add_argument("-s", "--storage", choices=["mcap", "sqlite3"], help="not used: detected from the file")
         return verb
 
     add_record_arguments(add("record", record.record, "record topics to a bag"))

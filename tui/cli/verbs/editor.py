@@ -24,10 +24,12 @@ def run(words: Sequence[str]) -> int:
     parser = argparse.ArgumentParser(
         "bot-console setup editor",
         description=f"Write or complete {PYRIGHT} and {VSCODE} of a workspace, so that editors and pyright find "
-        "rclpy, launch, all messages and the packages of the workspace. What the files already say is kept. Run it "
-        "again after changing a definition of the workspace, and after an update of bot-console.",
+        "rclpy, launch, all messages and the packages of the workspace. Existing entries are kept. Run it "
+        "again after changing a definition in the workspace, and after an update of bot-console.",
     )
-    parser.add_argument("folder", nargs="?", type=Path, default=Path("."), metavar="DIR", help="workspace (.)")
+    parser.add_argument(
+        "folder", nargs="?", type=Path, default=Path("."), metavar="DIR", help="workspace (default: this folder)"
+    )
     folder: Path = parser.parse_args(words).folder
     if not folder.is_dir():
         parser.error(f"there is no folder {folder}")

@@ -29,8 +29,8 @@ def run(words: list[str]) -> int:
     """Lock the robot, restore parameters, reset simulators; returns 0 if all of that succeeded."""
     parser = argparse.ArgumentParser(
         "bot-console reset",
-        description="Reset what is running: the robot is locked, parameters get the values with which their "
-        "nodes started (all or none), simulators their first pose. `bot-console release` releases the robot.",
+        description="Reset the running system: the robot is locked, parameters get the values with which their "
+        "nodes started (all or none), and simulators their initial pose. `bot-console release` releases the robot.",
     )
     parser.add_argument("--dry-run", action="store_true", help="only print what would be reset")
     given = parser.parse_args(words)
