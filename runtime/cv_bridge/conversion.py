@@ -16,13 +16,13 @@ def cvtColor2(image: np.ndarray, encoding_in: str, encoding_out: str) -> np.ndar
     if encoding_in == encoding_out:
         return image
     have, want = encoding(encoding_in), encoding(encoding_out)
-    _refuse_nonsense(have, want, encoding_in, encoding_out)
+    _check_conversion(have, want, encoding_in, encoding_out)
     if have.kind and want.kind and (have.kind, have.order) != (want.kind, want.order):
-        image = _recolored(image, have, want)
+        image = _convert_color(image, have, want)
     return _with_depth(image, np.dtype(want.dtype))
 
 
-def _refuse_nonsense(have: Encoding, want: Encoding, name_in: str, name_out: str) -> None:
+def _check_conversion(have: Encoding, want: Encoding, name_in: str, name_out: str) -> None:
     if not have.kind and want.kind:
         raise ValueError(f"[{name_in}] is not a color format. but [{name_out}] is. The conversion does not make sense")
     if have.channels == want.channels or (have.kind and want.kind):
@@ -35,7 +35,7 @@ def _refuse_nonsense(have: Encoding, want: Encoding, name_in: str, name_out: str
     raise ValueError(f"[{name_in}] and [{name_out}] do not have the same number of channel")
 
 
-def _recolored(image: np.ndarray, have: Encoding, want: Encoding) -> np.ndarray:
+def _convert_color(image: np.ndarray, have: Encoding, want: Encoding) -> np.ndarray:
     if want.kind in ("bayer", "yuv422"):
         raise ValueError(f"Unsupported conversion from [{have.kind}] to [{want.kind}]")
     if have.kind == "bayer":
@@ -87,13 +87,13 @@ def _with_depth(image: np.ndarray, dtype: np.dtype) -> np.ndarray:
     if have == dtype:
         return image
     if (have.itemsize, dtype.itemsize) == (1, 2) and dtype.kind in "iu":
-        return _cut(image.astype(np.float64) * (65535.0 / 255.0), dtype)
+        return _round_and_clip(image.astype(np.float64) * (65535.0 / 255.0), dtype)
     if (have.itemsize, dtype.itemsize) == (2, 1):
-        return _cut(image.astype(np.float64) * (255.0 / 65535.0), dtype)
-    return image.astype(dtype) if dtype.kind == "f" else _cut(image, dtype)
+        return _round_and_clip(image.astype(np.float64) * (255.0 / 65535.0), dtype)
+    return image.astype(dtype) if dtype.kind == "f" else _round_and_clip(image, dtype)
 
 
-def _cut(values: np.ndarray, dtype: np.dtype) -> np.ndarray:
+def _round_and_clip(values: np.ndarray, dtype: np.dtype) -> np.ndarray:
     limits = np.iinfo(dtype)
     return np.clip(np.rint(values), limits.min, limits.max).astype(dtype)
 

@@ -37,7 +37,7 @@ class CvBridge:
         image = np.ndarray(shape, dtype=kind, buffer=rows.tobytes()).astype(dtype)
         if desired_encoding in (None, "passthrough"):
             return image
-        return _converted(image, img_msg.encoding, desired_encoding)
+        return _convert(image, img_msg.encoding, desired_encoding)
 
     def cv2_to_imgmsg(self, cvim: np.ndarray, encoding: str = "passthrough", header: Header | None = None) -> Image:
         """Return a message with the pixels of an array."""
@@ -67,7 +67,7 @@ class CvBridge:
             raise CvBridgeError(f"The data is not an image that OpenCV can read (format '{cmprs_img_msg.format}')")
         if desired_encoding in (None, "passthrough"):
             return image
-        return _converted(image, "bgr8" if image.ndim == 3 else "mono8", desired_encoding)
+        return _convert(image, "bgr8" if image.ndim == 3 else "mono8", desired_encoding)
 
     def cv2_to_compressed_imgmsg(self, cvim: np.ndarray, dst_format: str = "jpg") -> CompressedImage:
         """Return a compressed message with the pixels of an array; needs OpenCV (`ImportError`)."""
@@ -102,7 +102,7 @@ class CvBridge:
             raise CvBridgeError(f"images of type {np.dtype(dtype).name} have no encoding") from None
 
 
-def _converted(image: np.ndarray, have: str, want: str) -> np.ndarray:
+def _convert(image: np.ndarray, have: str, want: str) -> np.ndarray:
     try:
         return cvtColor2(image, have, want)
     except ValueError as error:

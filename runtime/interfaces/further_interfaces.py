@@ -55,7 +55,7 @@ def add(folder: Path) -> dict[str, list[str]]:
     shared = sorted(set(found) & (set(standard_packages()) - EXAMPLES))
     if shared:
         raise NotAdded(f"{', '.join(shared)} is included and used by everything; it cannot be replaced")
-    names = {name: _checked(name, place) for name, place in found.items()}
+    names = {name: _check_definitions(name, place) for name, place in found.items()}
     for name, place in found.items():
         target = _kept() / name
         shutil.rmtree(target, ignore_errors=True)
@@ -83,7 +83,7 @@ def _definitions(folder: Path) -> Iterator[Path]:
         yield from sorted((folder / kind).glob(f"*.{kind}"))
 
 
-def _checked(package: str, folder: Path) -> list[str]:
+def _check_definitions(package: str, folder: Path) -> list[str]:
     """Return the names of valid definitions, such as `msg/Num`; raises `NotAdded` with file and line of a mistake."""
     from bot_console.runtime.rosidl.parse import DefinitionError, parse
 

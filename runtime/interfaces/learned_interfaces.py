@@ -86,13 +86,13 @@ def _keep(texts: Mapping[str, str]) -> None:
         package, kind, short = name.split("/")
         if package not in _folders and importlib.util.find_spec(package) is not None:
             continue
-        folder = _kept() / package / kind
+        folder = _directory() / package / kind
         folder.mkdir(parents=True, exist_ok=True)
         place = folder / f"{short}.{kind}"
         if not place.exists():
             place.write_text(text, encoding="utf-8")
             new.append(f"{package}.{kind}")
-        _folders[package] = _kept() / package
+        _folders[package] = _directory() / package
     _report_more(new)
 
 
@@ -104,13 +104,13 @@ def _report_more(modules: Iterable[str]) -> None:
 
 
 @cache
-def _held() -> tempfile.TemporaryDirectory[str]:
+def _temporary_directory() -> tempfile.TemporaryDirectory[str]:
     import tempfile
 
     return tempfile.TemporaryDirectory(prefix="bot-console-interfaces-")
 
 
-def _kept() -> Path:
+def _directory() -> Path:
     from pathlib import Path
 
-    return Path(_held().name)
+    return Path(_temporary_directory().name)

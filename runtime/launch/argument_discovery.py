@@ -44,7 +44,7 @@ class _Walk:
         for entity in entities:
             kind: type = entity.__class__
             if issubclass(kind, DeclaresArgument):
-                self._declared(entity, includes, conditional)
+                self._add_declared(entity, includes, conditional)
             if issubclass(kind, ResetsConfigurations):
                 return
             below = includes
@@ -55,7 +55,7 @@ class _Walk:
             for _, entities_of_branch in entity.describe_conditional_sub_entities():
                 self.entities(entities_of_branch, below, True)
 
-    def _declared(self, argument: Any, includes: Includes, conditional: bool) -> None:
+    def _add_declared(self, argument: Any, includes: Includes, conditional: bool) -> None:
         if argument.name not in self._names:
             self._names.add(argument.name)
             argument._conditionally_included = conditional or argument.condition is not None

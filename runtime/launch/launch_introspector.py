@@ -34,7 +34,7 @@ def _tree(entities: Sequence[LaunchDescriptionEntity]) -> list[str]:
 
 def _lines(entity: object) -> list[str]:
     if isinstance(entity, LogInfo):
-        return [f"LogInfo({_described(entity.msg)})"]
+        return [f"LogInfo({_describe(entity.msg)})"]
     if isinstance(entity, EmitEvent):
         return [f"EmitEvent(event='{entity.event.name}')"]
     if isinstance(entity, ExecuteProcess):
@@ -50,12 +50,12 @@ def _lines(entity: object) -> list[str]:
 
 
 def _process(action: ExecuteProcess) -> str:
-    words = ", ".join(_described(each) for each in action.process_description.cmd)
-    cwd = None if action.cwd is None else f"'{_described(action.cwd)}'"
+    words = ", ".join(_describe(each) for each in action.process_description.cmd)
+    cwd = None if action.cwd is None else f"'{_describe(action.cwd)}'"
     env = action.env
-    shown = None if env is None else {_described(name): _described(value) for name, value in env}
+    shown = None if env is None else {_describe(name): _describe(value) for name, value in env}
     return f"ExecuteProcess(cmd=[{words}], cwd={cwd}, env={shown}, shell={action.shell})"
 
 
-def _described(value: SomeSubstitutionsType) -> str:
+def _describe(value: SomeSubstitutionsType) -> str:
     return " + ".join(each.describe() for each in normalize_to_list_of_substitutions(value))

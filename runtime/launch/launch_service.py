@@ -244,10 +244,10 @@ class LaunchService:
                 loop = None
         if loop is not None:
             self._shutdown(reason=reason, due_to_sigint=False)
-        return None if force_sync else _Done()
+        return None if force_sync else _NoOpCoroutine()
 
 
-class _Done(Coroutine[Any, Any, None]):
+class _NoOpCoroutine(Coroutine[Any, Any, None]):
     """A coroutine with nothing to do, which may be awaited, made a task, or dropped without a warning."""
 
     def __await__(self) -> Generator[object, None, None]:

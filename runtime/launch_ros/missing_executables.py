@@ -27,7 +27,7 @@ def allow_missing(service: Any) -> None:
     service.context.extend_globals({ALLOWED: True})
 
 
-def _allowed(context: LaunchContext) -> bool:
+def _is_missing_allowed(context: LaunchContext) -> bool:
     configured = context.launch_configurations.get(ALLOWED, "")
     return configured.lower() in ("true", "1") or bool(context.get_locals_as_dict().get(ALLOWED))
 
@@ -42,7 +42,7 @@ def may_start(context: LaunchContext, action: Any, package: str | None) -> bool:
         executable = perform_substitutions(context, normalize_to_list_of_substitutions(action.node_executable))
         has = _what_it_has(package or "", executable)
         brings = has or what_provides(package or "")
-        if _allowed(context):
+        if _is_missing_allowed(context):
             logger.warning(f"left out a node: {what}. {brings}")
             reason = f"{what}. {brings}"
             event = NodeMissing(action=action, package=package or "", executable=executable, reason=reason)

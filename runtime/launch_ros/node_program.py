@@ -28,7 +28,7 @@ def program_of(package: str | None, path: str) -> PythonProgram | None:
     if _is_container(package, path):
         threads = 1 if os.path.basename(path) == EXECUTABLES[0] else None
         return _program(container, False, threads)
-    executable = _known(package, path)
+    executable = _find_executable(package, path)
     if executable is not None and executable.entry_point is not None:
         entry = executable.entry_point
         found = workspace().find(executable.package)
@@ -80,7 +80,7 @@ def os_command(package: str | None, command: list[str], at: int) -> list[str]:
     A file that is an argument of Python itself, as in `python3 -m pdb FILE`, is left unchanged: its process finds the
     runtime through the environment.
     """
-    executable = _known(package, command[at])
+    executable = _find_executable(package, command[at])
     if executable is not None and executable.entry_point is not None:
         script = str(script_of(executable))
     elif _is_python(command[at]) and not any(map(_is_interpreter, command[:at])):
@@ -90,7 +90,7 @@ def os_command(package: str | None, command: list[str], at: int) -> list[str]:
     return [*command[:at], script, *command[at + 1 :]]
 
 
-def _known(package: str | None, path: str) -> Executable | None:
+def _find_executable(package: str | None, path: str) -> Executable | None:
     if package is None or os.path.isfile(path):
         return None
     try:

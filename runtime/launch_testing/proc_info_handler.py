@@ -62,12 +62,12 @@ class ActiveProcInfoHandler(ProcInfoHandler):
     def assertWaitForStartup(self, process: object, cmd_args: object = None, *, timeout: float = 10) -> None:
         """Assert that a process starts within this many seconds."""
         so = self._wait(process, cmd_args, timeout, lambda event: True)
-        assert so, f"Timed out waiting for process '{_shown(process)}' to start"
+        assert so, f"Timed out waiting for process '{_process_text(process)}' to start"
 
     def assertWaitForShutdown(self, process: object, cmd_args: object = None, *, timeout: float = 10) -> None:
         """Assert that a process ends within this many seconds."""
         so = self._wait(process, cmd_args, timeout, lambda event: isinstance(event, ProcessExited))
-        assert so, f"Timed out waiting for process '{_shown(process)}' to finish"
+        assert so, f"Timed out waiting for process '{_process_text(process)}' to finish"
 
     def _wait(self, process: object, cmd_args: object, timeout: float, fits: Callable[[Any], bool]) -> bool:
         def so() -> bool:
@@ -80,5 +80,5 @@ class ActiveProcInfoHandler(ProcInfoHandler):
             return self._changed.wait_for(so, timeout)
 
 
-def _shown(process: object) -> str | None:
+def _process_text(process: object) -> str | None:
     return process if isinstance(process, str) or process is None else describe_process(process)

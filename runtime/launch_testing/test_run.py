@@ -65,13 +65,13 @@ class TestRun:
         known |= {"test_args": dict(arguments)}
         before, after = self._suite(False, {**known, "launch_service": service}), self._suite(True, known)
         included = IncludeLaunchDescription(LaunchDescriptionSource(description), launch_arguments=arguments.items())
-        service.include_launch_description(LaunchDescription([*_watched(proc_info, proc_output), included]))
+        service.include_launch_description(LaunchDescription([*_recording_handlers(proc_info, proc_output), included]))
         tester = threading.Thread(target=self._run_beside, args=(ready, before, result, service), daemon=True)
         tester.start()
         service.run(shutdown_when_idle=not getattr(self._description, KEEP_ALIVE, False))
         tester.join(timeout=1.0)
         if tester.is_alive():
-            result.addError(self._whole(), _raised("Processes under test stopped before tests completed"))
+            result.addError(self._whole(), _exc_info("Processes under test stopped before tests completed"))
             _print_output_of_failed(proc_info, proc_output)
             return
         setattr(result, "_previousTestClass", None)  # noqa: B010 -- else unittest tears its last class down a second time
@@ -110,15 +110,15 @@ class TestRun:
             if ready.wait(getattr(self._description, READY_TIMEOUT, START_TIMEOUT_S)):
                 suite.run(result)
             else:
-                result.addError(self._whole(), _raised("Timed out waiting for processes to start up"))
+                result.addError(self._whole(), _exc_info("Timed out waiting for processes to start up"))
         finally:
             service.shutdown()
 
     def _whole(self) -> unittest.TestCase:
-        return _Named(f"{self._module.__name__}{self.name}")
+        return _RunPlaceholder(f"{self._module.__name__}{self.name}")
 
 
-class _Named(unittest.TestCase):
+class _RunPlaceholder(unittest.TestCase):
     """Stands for a whole run in a result."""
 
     def __init__(self, name: str) -> None:
@@ -136,7 +136,7 @@ class _Named(unittest.TestCase):
         return self._name
 
 
-def _raised(text: str) -> Any:
+def _exc_info(text: str) -> Any:
     error = RuntimeError(text)
     return RuntimeError, error, error.__traceback__
 
@@ -151,7 +151,7 @@ def _print_output_of_failed(proc_info: ActiveProcInfoHandler, proc_output: Activ
         print("#" * (len(event.process_name) + 21))
 
 
-def _watched(proc_info: ActiveProcInfoHandler, proc_output: ActiveIoHandler) -> list[RegisterEventHandler]:
+def _recording_handlers(proc_info: ActiveProcInfoHandler, proc_output: ActiveIoHandler) -> list[RegisterEventHandler]:
     heard = (
         OnProcessStart(on_start=lambda event, _: proc_output.track(event.process_name)),
         OnProcessStart(on_start=lambda event, _: proc_info.append(event)),

@@ -54,7 +54,7 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> TextMatch:
     anything else.
     """
     if isinstance(expected_text, str):
-        return _whole(expected_text) if strict else _within(expected_text)
+        return _match_whole(expected_text) if strict else _match_within(expected_text)
     if hasattr(expected_text, "search") and hasattr(expected_text, "match"):
         find = expected_text.match if strict else expected_text.search
 
@@ -68,14 +68,14 @@ def build_text_match(expected_text: Any, *, strict: bool = False) -> TextMatch:
     raise ValueError("Unknown format for expected text")
 
 
-def _whole(expected: str) -> TextMatch:
+def _match_whole(expected: str) -> TextMatch:
     def match(actual_text: str, start: int = 0) -> Span | None:
         return (start, start + len(expected)) if normalize_lineseps(actual_text)[start:] == expected else None
 
     return match
 
 
-def _within(expected: str) -> TextMatch:
+def _match_within(expected: str) -> TextMatch:
     def match(actual_text: str, start: int = 0) -> Span | None:
         found = normalize_lineseps(actual_text).find(expected, start)
         return None if found < 0 else (found, found + len(expected))

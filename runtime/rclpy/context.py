@@ -178,7 +178,7 @@ class Context:
         return self._add(wake, "_wakes")
 
     def _add(self, callback: Callable[[], object], name: str) -> Callable[[], None]:
-        held = self._held(callback)
+        held = self._callback_reference(callback)
         with self._lock:
             if not self.ended:
                 getattr(self, name).append(held)
@@ -186,7 +186,7 @@ class Context:
         callback()
         return lambda: None
 
-    def _held(self, callback: Callable[[], object]) -> Callable[[], Callable[[], object] | None]:
+    def _callback_reference(self, callback: Callable[[], object]) -> Callable[[], Callable[[], object] | None]:
         """Return a reference to the callback: weak for methods, so that the context keeps no object alive."""
         if isinstance(callback, MethodType):
             try:

@@ -174,7 +174,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         return self._spinning > 0
 
     @contextmanager
-    def _entered(self) -> Generator[None]:
+    def _count_spinning(self) -> Generator[None]:
         self._spinning += 1
         try:
             yield
@@ -241,7 +241,7 @@ class Executor(TaskQueue, ReadyCallbacks):
     def spin(self) -> None:
         """Run callbacks until shut down; raises `ExternalShutdownException` if its context is, between callbacks."""
         report_unused_overrides(self._context)
-        with self._entered():
+        with self._count_spinning():
             while self._context.ok() and not self._is_shutdown:
                 self.spin_once()
 
@@ -256,7 +256,7 @@ class Executor(TaskQueue, ReadyCallbacks):
 
     def spin_until_future_complete(self, future: Future[Any], timeout_sec: float | None = None) -> None:
         """Run callbacks until the future is done or cancelled, or the time-out (s) expires."""
-        with self._entered():
+        with self._count_spinning():
             self._spin_until(future, timeout_sec)
 
     def _spin_until(self, future: Future[Any], timeout_sec: float | None) -> None:
@@ -477,7 +477,7 @@ class MultiThreadedExecutor(Executor):
     def spin(self) -> None:
         """Run callbacks until shut down; returns silently if the context is shut down."""
         report_unused_overrides(self._context)
-        with self._entered():
+        with self._count_spinning():
             while self._context.ok() and not self._is_shutdown:
                 self.spin_once()
 

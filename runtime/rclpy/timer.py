@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 MAX_PERIOD_NS = 2**63 - 1
 
 
-def _fits(period_ns: int) -> int:
+def _checked_period(period_ns: int) -> int:
     """Return the period, which must fit into 64 bits as upstream; raises `TypeError`."""
     if not -MAX_PERIOD_NS - 1 <= period_ns <= MAX_PERIOD_NS:
         raise TypeError(f"the period of a timer must be at most 2^63 - 1 ns (292 years), not {period_ns} ns")
@@ -56,7 +56,7 @@ class Timer(Entity):
         super().__init__(callback_group)
         if not hasattr(autostart, "__bool__"):  # upstream's C++ also converts numbers and None
             raise TypeError(f"autostart must be a bool, not {type(autostart).__name__}")
-        if _fits(timer_period_ns) < 0:
+        if _checked_period(timer_period_ns) < 0:
             raise RCLError("failed to create timer: timer period must be non-negative")
         self.callback = callback
         self.clock_of_timer = clock
@@ -88,7 +88,7 @@ class Timer(Entity):
     @timer_period_ns.setter
     def timer_period_ns(self, value: int) -> None:
         self.use()
-        self._period = _fits(int(value))
+        self._period = _checked_period(int(value))
 
     def pending(self) -> bool:
         """Whether the timer is due."""

@@ -113,17 +113,17 @@ class _Parser:
 
     def _expect(self, word: str) -> None:
         if not self._accept_word(word):
-            raise ContentFilterError(f"'{word}' is missing before {_quoted(self._tokens[self._at][1])}")
+            raise ContentFilterError(f"'{word}' is missing before {_quote(self._tokens[self._at][1])}")
 
     def _condition(self) -> Accepts:
-        left = self._negated()
+        left = self._negation()
         while joint := self._accept_word("AND", "OR"):
-            left = _joined(joint, left, self._negated())
+            left = _combine(joint, left, self._negation())
         return left
 
-    def _negated(self) -> Accepts:
+    def _negation(self) -> Accepts:
         if self._accept_word("NOT"):
-            inner = self._negated()
+            inner = self._negation()
             return lambda message: not inner(message)
         if self._accept_word("("):
             inner = self._condition()
@@ -142,7 +142,7 @@ class _Parser:
         if kind != "word":
             raise ContentFilterError("a value can only be compared with a field")
         read, is_text = _field(name, self._class)
-        return _compared(name, read, is_text, _MIRRORED.get(sign, sign), value)
+        return _comparison_with(name, read, is_text, _MIRRORED.get(sign, sign), value)
 
     def _of_field(self, name: str, read: Read, is_text: bool) -> Accepts:
         negated = bool(self._accept_word("NOT"))
@@ -150,13 +150,13 @@ class _Parser:
             low = self._value(*self._next())
             self._expect("AND")
             high = self._value(*self._next())
-            above = _compared(name, read, is_text, ">=", low)
-            below = _compared(name, read, is_text, "<=", high)
+            above = _comparison_with(name, read, is_text, ">=", low)
+            below = _comparison_with(name, read, is_text, "<=", high)
             return lambda message: (above(message) and below(message)) is not negated
         if negated:
             raise ContentFilterError("NOT stands before a comparison, or before BETWEEN")
         if word := self._accept_word("LIKE", "MATCH"):
-            return _matching(name, read, is_text, word, self._value(*self._next()))
+            return _text_match(name, read, is_text, word, self._value(*self._next()))
         sign = self._sign()
         kind, text = self._next()
         if kind == "word" and text.upper() not in _KEYWORDS:
@@ -165,12 +165,12 @@ class _Parser:
                 raise ContentFilterError(f"'{name}' and '{text}' cannot be compared")
             compare = _COMPARE[sign]
             return lambda message: _holds(compare, read(message), other(message))
-        return _compared(name, read, is_text, sign, self._value(kind, text))
+        return _comparison_with(name, read, is_text, sign, self._value(kind, text))
 
     def _sign(self) -> str:
         kind, text = self._next()
         if kind != "sign" or text not in _COMPARE:
-            raise ContentFilterError(f"a comparison is missing before {_quoted(text)}")
+            raise ContentFilterError(f"a comparison is missing before {_quote(text)}")
         return text
 
     def _value(self, kind: str, text: str) -> Any:
@@ -189,10 +189,10 @@ class _Parser:
             return text[1:-1]
         if text.upper() in _TRUTH:
             return text.upper() == "TRUE"
-        raise ContentFilterError(f"a value is missing before {_quoted(text)}; texts have single quotes")
+        raise ContentFilterError(f"a value is missing before {_quote(text)}; texts have single quotes")
 
 
-def _quoted(text: str) -> str:
+def _quote(text: str) -> str:
     return f"'{text}'" if text else "the end"
 
 
@@ -260,7 +260,7 @@ def _holds(compare: Callable[[Any, Any], bool], left: object, right: object) -> 
     return left is not None and right is not None and bool(compare(left, right))
 
 
-def _compared(name: str, read: Read, is_text: bool, sign: str, value: object) -> Accepts:
+def _comparison_with(name: str, read: Read, is_text: bool, sign: str, value: object) -> Accepts:
     if isinstance(value, str) is not is_text:
         needed = "a text in single quotes" if is_text else "a number"
         raise ContentFilterError(f"'{name}' needs {needed}")
@@ -268,7 +268,7 @@ def _compared(name: str, read: Read, is_text: bool, sign: str, value: object) ->
     return lambda message: _holds(compare, read(message), value)
 
 
-def _matching(name: str, read: Read, is_text: bool, word: str, value: object) -> Accepts:
+def _text_match(name: str, read: Read, is_text: bool, word: str, value: object) -> Accepts:
     if not is_text or not isinstance(value, str):
         raise ContentFilterError(f"{word} compares texts; '{name}' {'needs one' if is_text else 'is not a text'}")
     if word == "LIKE":
@@ -280,7 +280,7 @@ def _matching(name: str, read: Read, is_text: bool, word: str, value: object) ->
     return lambda message: pattern.fullmatch(read(message) or "") is not None
 
 
-def _joined(word: str, left: Accepts, right: Accepts) -> Accepts:
+def _combine(word: str, left: Accepts, right: Accepts) -> Accepts:
     if word == "AND":
         return lambda message: left(message) and right(message)
     return lambda message: left(message) or right(message)

@@ -90,10 +90,10 @@ def row(codes: Sequence[str], place: Place, order: str) -> tuple[Sequence[struct
         known = known and gap is not None
         behind = Place(size, 0).behind(length) if gap is None else behind.behind(gap + length)
     starts = (place.rest,) if known else range(8)
-    return [struct.Struct(order + _filled(codes, start, order)) for start in starts], behind
+    return [struct.Struct(order + _with_padding(codes, start, order)) for start in starts], behind
 
 
-def _filled(codes: Sequence[str], start: int, order: str) -> str:
+def _with_padding(codes: Sequence[str], start: int, order: str) -> str:
     text = ""
     for code in codes:
         gap = -start % struct.calcsize(order + code[-1])

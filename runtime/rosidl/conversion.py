@@ -104,7 +104,7 @@ def too_long(message: object, field: str, bound: int) -> None:
     raise _refuse(message, field, f"a sequence of at most {bound}", value)
 
 
-def _sized(message: object, field: str, size: int, bound: int) -> Any:
+def _check_size(message: object, field: str, size: int, bound: int) -> Any:
     value = getattr(message, "_" + field)
     try:
         length = len(value)
@@ -130,7 +130,7 @@ def to_fixed(message: object, field: str, dtype: str, size: int) -> Any:
     import numpy
 
     _own_arrays[dtype] = numpy.ndarray, numpy.dtype(dtype)
-    value = _sized(message, field, size, 0)
+    value = _check_size(message, field, size, 0)
     try:
         return numpy.array(value, dtype)
     except (TypeError, ValueError):
@@ -142,7 +142,7 @@ def to_list(message: object, field: str, kind: type, size: int, bound: int, limi
     values = getattr(message, "_" + field)
     if values.__class__ is list and not values and not size:
         return []
-    values = _sized(message, field, size, bound)
+    values = _check_size(message, field, size, bound)
     if kind is bytes and isinstance(values, (bytes, bytearray)):
         return [bytes([each]) for each in values]
     for index, value in enumerate(values):
@@ -157,7 +157,7 @@ def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> li
     values = getattr(message, "_" + field)
     if values.__class__ is list and not values and not size:
         return []
-    values = _sized(message, field, size, bound)
+    values = _check_size(message, field, size, bound)
     copies: list[Any] = []
     for index, value in enumerate(values):
         if not isinstance(value, cls):

@@ -128,7 +128,7 @@ def _default(text: str, kind: Type) -> str:
 def _literal(text: str, kind: Type) -> str:
     """Return the Python literal of a value as written in a definition file; raises `ValueError`."""
     if kind.item in TEXTS:
-        return repr(_unquoted(text))
+        return repr(_unquote(text))
     if kind.item == "boolean":
         if text.lower() not in ("true", "false", "0", "1"):
             raise ValueError(f"'{text}' is neither true nor false")
@@ -140,7 +140,7 @@ def _literal(text: str, kind: Type) -> str:
     return repr(bytes([number])) if kind.item == "octet" else str(number)
 
 
-def _unquoted(text: str) -> str:
+def _unquote(text: str) -> str:
     if len(text) > 1 and text[0] == text[-1] and text[0] in "\"'":
         return text[1:-1].replace("\\" + text[0], text[0])
     return text

@@ -88,7 +88,7 @@ def _holder(name: str, text: str, parts: Sequence[str]) -> Iterator[str]:
     yield from (
         "",
         f"class {name}(metaclass=_ServiceType):",
-        *_documented(text or f"{name}: {', '.join(parts)}.", "    "),
+        *_docstring_lines(text or f"{name}: {', '.join(parts)}.", "    "),
     )
     yield from (f"    {part} = {name}_{part}" for part in parts)
 
@@ -98,12 +98,12 @@ def _message(definition: Definition, of_it: Comments, names: Mapping[str, str]) 
     fields = [f"{each.name} ({_type_and_range(each)})" for each in definition.fields]
     listed = "Fields: " + ", ".join(fields) if fields else "No fields."
     yield from ("", f"class {definition.name}(_Message):")
-    yield from _documented(f"{of_it.whole}\n\n{listed}".strip(), "    ")
+    yield from _docstring_lines(f"{of_it.whole}\n\n{listed}".strip(), "    ")
     for constant in definition.constants:
         kind = SCALARS.get(PRIMITIVES[constant.type], "int")
         yield f"    {constant.name}: _b.{kind} = {constant.value}"
         if text := of_it.members.get(constant.name):
-            yield from _documented(text, "    ")
+            yield from _docstring_lines(text, "    ")
     for field in definition.fields:
         if field.default is not None:
             yield f"    {field.name.upper()}__DEFAULT: _Any"
@@ -115,12 +115,12 @@ def _message(definition: Definition, of_it: Comments, names: Mapping[str, str]) 
         text = "\n\n".join(filter(None, (of_it.members.get(field.name, ""), _type_and_range(field))))
         yield "    @_b.property"
         yield f"    def {field.name}(self) -> {_value_annotation(field.type, names)}:"
-        yield from _documented(text, "        ")
+        yield from _docstring_lines(text, "        ")
         yield f"    @{field.name}.setter"
         yield f"    def {field.name}(self, value: {_assignable_annotation(field.type, names)}) -> None: ..."
 
 
-def _documented(text: str, indent: str) -> Sequence[str]:
+def _docstring_lines(text: str, indent: str) -> Sequence[str]:
     text = text.replace("\\", "\\\\").replace('"""', "'''")
     text = f"{text} " if text.endswith('"') else text
     first, *rest = text.splitlines() or [""]

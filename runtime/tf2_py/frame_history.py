@@ -107,7 +107,7 @@ class FrameHistory:
             return parent, place
         after = bisect_right(stamps, time)
         if time > newest or not after or stamps[after - 1] < newest - self._keep:
-            raise LookupError(self._outside(time, self.first))
+            raise LookupError(self._extrapolation_message(time, self.first))
         stamp, parent, place, _ = entries[after - 1]
         if stamp == time:
             first = self.first
@@ -119,7 +119,7 @@ class FrameHistory:
             return parent, place
         return parent, interpolate(place, other_place, (time - stamp) / (later - stamp))
 
-    def _outside(self, time: int, first: int) -> str:
+    def _extrapolation_message(self, time: int, first: int) -> str:
         oldest, newest = self._stamps[first], self._stamps[-1]
         if oldest == newest:
             asked, only = seconds(time), seconds(newest)

@@ -40,17 +40,17 @@ def transform(find: Find, target: str, source: str, time: int) -> Rigid:
         above[frame] = place = step if place is IDENTITY else compose(step, place)
     if frame == target:
         return place
-    return _down(find, above, target, source, time, problem)
+    return _descend(find, above, target, source, time, problem)
 
 
-def _down(find: Find, above: dict[str, Rigid], target: str, source: str, time: int, problem: str | None) -> Rigid:
+def _descend(find: Find, above: dict[str, Rigid], target: str, source: str, time: int, problem: str | None) -> Rigid:
     frame, place = target, IDENTITY
     for _ in range(MAX_DEPTH):
         if frame in above:
             return compose(inverse(place), above[frame])
         history = find(frame)
         if history is None and problem is None:
-            raise ConnectivityException(unconnected(target, source))
+            raise ConnectivityException(unconnected_message(target, source))
         try:
             if history is None:
                 raise LookupError(problem or "")
@@ -76,11 +76,11 @@ def latest_common_time(find: Find, target: str, source: str) -> int:
         history = find(frame)
         latest = None if history is None else history.latest()
         if latest is None:
-            raise ConnectivityException(unconnected(target, source))
-        newest = _older(newest, latest[0])
+            raise ConnectivityException(unconnected_message(target, source))
+        newest = _earlier_time(newest, latest[0])
         frame = latest[1]
         if frame in above:
-            return _older(newest, above[frame])
+            return _earlier_time(newest, above[frame])
     raise LoopError(LOOP)
 
 
@@ -92,17 +92,17 @@ def _ancestors(find: Find, frame: str, up_to: str) -> dict[str, int]:
         time, frame = latest
         if frame in above:
             raise LoopError(LOOP)
-        above[frame] = newest = _older(newest, time)
+        above[frame] = newest = _earlier_time(newest, time)
     return above
 
 
-def _older(one: int, other: int) -> int:
+def _earlier_time(one: int, other: int) -> int:
     if one and other:
         return one if one < other else other
     return one or other
 
 
-def unconnected(target: str, source: str) -> str:
+def unconnected_message(target: str, source: str) -> str:
     """Return the error message for two frames in different trees."""
     return (
         f"Could not find a connection between '{target}' and '{source}' because they are not part of the same tree."

@@ -131,7 +131,7 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
         """Return whether `lookup_transform` would succeed within the timeout, as 1 or 0; with the reason on request."""
-        answer = _waited(lambda: self.can_transform_core(target_frame, source_frame, time), timeout)
+        answer = _poll_until_possible(lambda: self.can_transform_core(target_frame, source_frame, time), timeout)
         return answer if return_debug_tuple else answer[0]
 
     def can_transform_full(
@@ -145,7 +145,7 @@ class Buffer(BufferCore, BufferInterface):
         return_debug_tuple: bool = False,
     ) -> int | tuple[int, str]:
         """Return whether `lookup_transform_full` would succeed within the timeout."""
-        answer = _waited(
+        answer = _poll_until_possible(
             lambda: self.can_transform_full_core(target_frame, target_time, source_frame, source_time, fixed_frame),
             timeout,
         )
@@ -188,7 +188,7 @@ class Buffer(BufferCore, BufferInterface):
         return future
 
 
-def _waited(ask: Callable[[], tuple[int, str]], timeout: Duration) -> tuple[int, str]:
+def _poll_until_possible(ask: Callable[[], tuple[int, str]], timeout: Duration) -> tuple[int, str]:
     """Poll until the answer is positive or the time has expired; return the last answer."""
     answer = ask()
     if not answer[0] and timeout != NOW:

@@ -112,17 +112,17 @@ class BufferClient(BufferInterface):
             raise TimeoutException("The BufferServer is not ready.")
         timeout_ns = Duration.from_msg(goal.timeout).nanoseconds + self.timeout_padding.nanoseconds
         deadline = current().clock.steady_ns() + timeout_ns
-        handle = _settled(self.action_client.send_goal_async(goal), deadline)
+        handle = _result_before(self.action_client.send_goal_async(goal), deadline)
         if not handle.accepted:
             raise TimeoutException("The BufferServer has not accepted the goal.")
-        result = _settled(handle.get_result_async(), deadline).result
+        result = _result_before(handle.get_result_async(), deadline).result
         error = result.error
         if error.error != TF2Error.NO_ERROR:
             raise ERRORS.get(error.error, TransformException)(error.error_string)
         return result.transform
 
 
-def _settled(future: Future[Any], deadline: int) -> Any:
+def _result_before(future: Future[Any], deadline: int) -> Any:
     """Return the result of a future; raises `TimeoutException` at a steady time (ns)."""
     wakeup = current().clock.wakeup()
     future.add_done_callback(lambda _: wakeup.set())

@@ -79,18 +79,18 @@ class ConvertRegistration:
 
     def get_from_msg(self, key: type) -> Callable[[Any], Any]:
         """Return the function that creates a type from its message; raises `TypeException`."""
-        return _registered(self.__from_msg_map, key)
+        return _find_registered(self.__from_msg_map, key)
 
     def get_to_msg(self, key: type) -> Callable[[Any], Any]:
         """Return the function that creates the message of a type; raises `TypeException`."""
-        return _registered(self.__to_msg_map, key)
+        return _find_registered(self.__to_msg_map, key)
 
     def get_convert(self, key: tuple[type, type]) -> Callable[[Any], Any]:
         """Return the direct conversion from one type to another; raises `TypeException`."""
-        return _registered(self.__convert_map, key)
+        return _find_registered(self.__convert_map, key)
 
 
-def _registered(known: Any, key: Any) -> Any:
+def _find_registered(known: Any, key: Any) -> Any:
     if key not in known:
         raise TypeException(f"Type {key} if not loaded or supported")
     return known[key]

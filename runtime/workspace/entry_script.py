@@ -37,7 +37,7 @@ def script_of(executable: Executable) -> Path:
         return executable.path or Path(executable.name)
     first = entry.function.partition(".")[0]
     text = ENTRY_POINT.format(interpreter=sys.executable, module=entry.module, first=first, function=entry.function)
-    return _written(os.path.join(executable.package, executable.name), text)
+    return _write_script(os.path.join(executable.package, executable.name), text)
 
 
 def script_of_file(path: str) -> Path:
@@ -47,10 +47,10 @@ def script_of_file(path: str) -> Path:
     Raises `OSError` if it cannot be written.
     """
     path = os.path.abspath(path)
-    return _written(os.path.basename(path), FILE.format(interpreter=sys.executable, path=path))
+    return _write_script(os.path.basename(path), FILE.format(interpreter=sys.executable, path=path))
 
 
-def _written(name: str, text: str) -> Path:
+def _write_script(name: str, text: str) -> Path:
     digest = hashlib.sha256(text.encode()).hexdigest()[:16]
     try:
         return _write(cache_folder() / "scripts" / digest / name, text)

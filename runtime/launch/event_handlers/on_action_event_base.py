@@ -41,7 +41,7 @@ class OnActionEventBase(BaseEventHandler):
         if callable(on_event) and not isinstance(on_event, LaunchDescriptionEntity):
             self.__callback = on_event
         else:
-            self.__entities = _checked(on_event)
+            self.__entities = _checked_entities(on_event)
         super().__init__(matcher=self._matches, handle_once=handle_once, **kwargs)
 
     def _matches(self, event: Any) -> bool:
@@ -86,7 +86,7 @@ class OnActionEventBase(BaseEventHandler):
         return f"event == {name} and event.action == {self.__action_matcher!r}"
 
 
-def _checked(on_event: object) -> list[LaunchDescriptionEntity]:
+def _checked_entities(on_event: object) -> list[LaunchDescriptionEntity]:
     if isinstance(on_event, LaunchDescriptionEntity):
         return [on_event]
     if not isinstance(on_event, Iterable):

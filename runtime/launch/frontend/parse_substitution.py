@@ -58,16 +58,16 @@ def parse_if_substitutions(value: object) -> Any:
     Raises `ValueError` for a list whose plain values differ in type.
     """
     if not isinstance(value, list):
-        return _parsed_if_needed(value)
+        return _parse_if_needed(value)
     items = cast("list[Any]", value)
-    found = [_parsed_if_needed(each) for each in items]
+    found = [_parse_if_needed(each) for each in items]
     kinds: set[type] = {type(each) for each in found}
     if len(kinds - {list}) > 1:
         raise ValueError("The result is a non-uniform list")
     return found
 
 
-def _parsed_if_needed(value: object) -> Any:
+def _parse_if_needed(value: object) -> Any:
     from launch.substitutions.text_substitution import TextSubstitution
 
     if not isinstance(value, str):

@@ -27,7 +27,7 @@ def new_run_directory() -> str:
     """
     base = get_logging_directory()
     try:
-        return _made(base)
+        return _make_directory(base)
     except OSError as error:
         print(
             f"[WARN] [launch]: log files are not kept: {base} cannot be written ({error.strerror}); "
@@ -37,7 +37,7 @@ def new_run_directory() -> str:
     return tempfile.mkdtemp(prefix="ros-log-", dir=scratch())
 
 
-def _made(base: str) -> str:
+def _make_directory(base: str) -> str:
     moment = datetime.datetime.now().strftime("%Y-%m-%d-%H-%M-%S-%f")
     name = f"{moment}-{socket.gethostname()}-{os.getpid()}"
     path = os.path.join(base, name)

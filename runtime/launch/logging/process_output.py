@@ -30,7 +30,7 @@ def get_output_loggers(
     process_name: str, output_config: object, main_log_file_name: str = "launch.log"
 ) -> tuple[Any, Any]:
     """Return the loggers for a process's stdout and stderr; raises `ValueError` for invalid settings."""
-    places = _normalized(os.environ.get(OVERRIDE) or output_config)
+    places = _normalize(os.environ.get(OVERRIDE) or output_config)
     loggers: list[_OutputLogger] = []
     for source in ("stdout", "stderr"):
         logger = get_logger(f"{process_name}-{source}")
@@ -65,19 +65,19 @@ def _handlers(
     if "log" in anywhere:
         yield launch_config.get_log_file_handler(main_log_file_name)
     if "own_log" in places.get(source, ()):
-        yield _own(f"{process_name}-{source}.log")
+        yield _own_log_handler(f"{process_name}-{source}.log")
     if "own_log" in places.get("both", ()):
-        yield _own(f"{process_name}.log")
+        yield _own_log_handler(f"{process_name}.log")
 
 
-def _own(file_name: str) -> logging.Handler:
+def _own_log_handler(file_name: str) -> logging.Handler:
     """Return the handler of a file for one process's lines, which lack the timestamps of the main log."""
     handler = launch_config.get_log_file_handler(file_name)
     handler.setFormatter(logging.Formatter())
     return handler
 
 
-def _normalized(config: object) -> Mapping[str, frozenset[str]]:
+def _normalize(config: object) -> Mapping[str, frozenset[str]]:
     if isinstance(config, str):
         if config not in WORDS:
             raise ValueError(f'{config} is not a valid standard output config i.e. "screen", "log" or "both"')

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, Any
 
 from launch.frontend.expose import expose_substitution
 from launch.substitution import Substitution
-from launch.substitutions.joined import TwoSided, bool_text, describe_all, evaluate_bool
+from launch.substitutions.joined import BinarySubstitution, bool_text, describe_all, evaluate_bool
 from launch.utilities import normalize_to_list_of_substitutions
 
 if TYPE_CHECKING:
@@ -50,7 +50,7 @@ def _values(context: LaunchContext, *operands: list[Substitution]) -> list[bool]
 
 
 @expose_substitution("and")
-class AndSubstitution(TwoSided):
+class AndSubstitution(BinarySubstitution):
     """Whether both operands are true."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
@@ -62,7 +62,7 @@ class AndSubstitution(TwoSided):
 
 
 @expose_substitution("or")
-class OrSubstitution(TwoSided):
+class OrSubstitution(BinarySubstitution):
     """Whether at least one operand is true."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
@@ -73,7 +73,7 @@ class OrSubstitution(TwoSided):
         return bool_text(any(_values(context, self.left, self.right)))
 
 
-class _ManySided(Substitution):
+class _VariadicSubstitution(Substitution):
     """Base of substitutions with any number of operands."""
 
     def __init__(self, *args: SomeSubstitutionsType) -> None:
@@ -100,7 +100,7 @@ class _ManySided(Substitution):
 
 
 @expose_substitution("any")
-class AnySubstitution(_ManySided):
+class AnySubstitution(_VariadicSubstitution):
     """Whether at least one of several operands is true."""
 
     def perform(self, context: LaunchContext) -> str:
@@ -109,7 +109,7 @@ class AnySubstitution(_ManySided):
 
 
 @expose_substitution("all")
-class AllSubstitution(_ManySided):
+class AllSubstitution(_VariadicSubstitution):
     """Whether all of several operands are true."""
 
     def perform(self, context: LaunchContext) -> str:

@@ -6,7 +6,7 @@ import math
 from typing import TYPE_CHECKING, cast
 
 from launch.frontend.expose import expose_substitution
-from launch.substitutions.joined import TwoSided, bool_text
+from launch.substitutions.joined import BinarySubstitution, bool_text
 from launch.utilities import perform_substitutions
 from launch.utilities.type_utils import is_substitution
 
@@ -44,7 +44,7 @@ def _equal(left: str, right: str) -> bool:
 
 
 @expose_substitution("equals")
-class EqualsSubstitution(TwoSided):
+class EqualsSubstitution(BinarySubstitution):
     """Whether two values are equal as booleans, otherwise as numbers, otherwise as texts."""
 
     def __init__(self, left: object, right: object) -> None:

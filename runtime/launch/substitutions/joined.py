@@ -34,7 +34,7 @@ def bool_text(value: bool) -> str:
     return "true" if value else "false"
 
 
-class TwoSided(Substitution):
+class BinarySubstitution(Substitution):
     """Base of substitutions with two operands."""
 
     def __init__(self, left: SomeSubstitutionsType, right: SomeSubstitutionsType) -> None:
@@ -43,7 +43,7 @@ class TwoSided(Substitution):
         self.__right = normalize_to_list_of_substitutions(right)
 
     @classmethod
-    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[TwoSided], dict[str, object]]:
+    def parse(cls, data: Sequence[SomeSubstitutionsType]) -> tuple[type[BinarySubstitution], dict[str, object]]:
         """Parse two arguments, as in `$(and left right)`."""
         if len(data) != 2:
             raise TypeError("and substitution expects 2 arguments")  # any type is accepted, as upstream

@@ -61,7 +61,7 @@ def coerce_to_type(value: str, data_type: Any = None, can_be_str: bool = False) 
     """
     ensure_argument_type(value, str, "value", "coerce_to_type")
     if data_type is None:
-        return _by_yaml(value, f"Failed to convert '{value}' using yaml rules", can_be_str)
+        return _parse_yaml(value, f"Failed to convert '{value}' using yaml rules", can_be_str)
     scalar, is_list = extract_type(data_type)
     if is_list:
         return _list_from(value, scalar, can_be_str)
@@ -102,7 +102,7 @@ def get_typed_value(value: Any, data_type: Any, can_be_str: bool = False) -> Any
 def _bool_from(value: str, can_be_str: bool) -> bool | str:
     if value in ("0", "1"):
         return value == "1"
-    found = _by_yaml(value, f"Failed to convert '{value}' to '{bool}'", can_be_str)
+    found = _parse_yaml(value, f"Failed to convert '{value}' to '{bool}'", can_be_str)
     if isinstance(found, (bool, str) if can_be_str else bool):
         return found
     raise ValueError(f"Cannot convert value '{value}' to '{bool}'")
@@ -111,7 +111,7 @@ def _bool_from(value: str, can_be_str: bool) -> bool | str:
 def _list_from(value: str, scalar: Any, can_be_str: bool) -> list[Any]:
     wanted = (str, scalar) if can_be_str else scalar
     problem = f"Cannot convert value '{value}' to a list of '{wanted}'"
-    found = _by_yaml(value, problem, can_be_str)
+    found = _parse_yaml(value, problem, can_be_str)
     if not isinstance(found, list):
         raise ValueError(problem)
     items = cast("list[Any]", found)
@@ -120,7 +120,7 @@ def _list_from(value: str, scalar: Any, can_be_str: bool) -> list[Any]:
     return items
 
 
-def _by_yaml(value: str, problem: str, can_be_str: bool) -> Any:
+def _parse_yaml(value: str, problem: str, can_be_str: bool) -> Any:
     """Parse a text as YAML; an empty text is returned unchanged, and so is, with `can_be_str`, one that is not YAML."""
     import yaml
 

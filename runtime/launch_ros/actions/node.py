@@ -199,9 +199,9 @@ class Node(ExecuteProcess):
     def _expand_names(self, context: LaunchContext) -> None:
         try:
             if self.__name is not None:
-                self.__expanded_name = _performed(context, self.__name)
+                self.__expanded_name = _evaluate(context, self.__name)
                 validate_node_name(self.__expanded_name)
-            own = None if self.__namespace is None else _performed(context, self.__namespace)
+            own = None if self.__namespace is None else _evaluate(context, self.__namespace)
             base = context.launch_configurations.get("ros_namespace")
             namespace = make_namespace_absolute(prefix_namespace(base, own))
             if namespace is not None:
@@ -241,7 +241,7 @@ class Node(ExecuteProcess):
 
     def _expand_remappings(self, context: LaunchContext) -> None:
         rules: list[tuple[str, str]] = list(context.launch_configurations.get("ros_remaps") or ())
-        rules += [(_performed(context, source), _performed(context, target)) for source, target in self.__remappings]
+        rules += [(_evaluate(context, source), _evaluate(context, target)) for source, target in self.__remappings]
         if rules:
             self.__expanded_remappings = rules
         for source, target in rules:
@@ -263,5 +263,5 @@ class Node(ExecuteProcess):
         return os_command(self.__package_text, command, prefix) if program is None else command[prefix:]
 
 
-def _performed(context: LaunchContext, text: SomeSubstitutionsType) -> str:
+def _evaluate(context: LaunchContext, text: SomeSubstitutionsType) -> str:
     return perform_substitutions(context, normalize_to_list_of_substitutions(text))

@@ -47,10 +47,10 @@ def _parameter(entity: Entity, parser: Parser) -> Any:
         return file
     if name is None:
         raise ValueError("param Entity should have name or from attribute")
-    return _named(entity, parser)
+    return _named_parameter(entity, parser)
 
 
-def _named(entity: Entity, parser: Parser) -> dict[Any, Any]:
+def _named_parameter(entity: Entity, parser: Parser) -> dict[Any, Any]:
     name = tuple(parser.parse_substitution(entity.get_attr("name")))
     kind = _kind(entity.get_attr("type", optional=True))
     value = entity.get_attr("value", data_type=kind, optional=True)
@@ -66,7 +66,7 @@ def _named(entity: Entity, parser: Parser) -> dict[Any, Any]:
         raise RuntimeError("either a value attribute or nested params are needed")
     found: dict[Any, Any] = {}
     for each in nested:
-        found.update(_named(each, parser))
+        found.update(_named_parameter(each, parser))
     return {name: found}
 
 

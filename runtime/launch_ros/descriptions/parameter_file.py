@@ -51,9 +51,9 @@ class ParameterFile:
         """
         if self.__evaluated is None:
             place = perform_substitutions(context, self.__param_file)
-            path = _fetched(context, place) if is_remote(place) else Path(place)
+            path = _fetch(context, place) if is_remote(place) else Path(place)
             self.__allow_substs = perform_typed_substitution(context, self.__allow_substs, data_type=bool)
-            self.__evaluated = _substituted(context, path) if self.__allow_substs else path
+            self.__evaluated = _substitute(context, path) if self.__allow_substs else path
         return self.__evaluated
 
     def cleanup(self) -> None:
@@ -67,7 +67,7 @@ _copies: WeakKeyDictionary[LaunchContext, dict[str, Path]] = WeakKeyDictionary()
 """Files downloaded for each launch: all its nodes start with the same text, and waits for a silent server only once."""
 
 
-def _fetched(context: LaunchContext, address: str) -> Path:
+def _fetch(context: LaunchContext, address: str) -> Path:
     from bot_console.runtime.files.remote_parameters import local_copy
 
     copies = _copies.setdefault(context, {})
@@ -76,7 +76,7 @@ def _fetched(context: LaunchContext, address: str) -> Path:
     return copies[address]
 
 
-def _substituted(context: LaunchContext, path: Path) -> Path:
+def _substitute(context: LaunchContext, path: Path) -> Path:
     text = perform_substitutions(context, parse_substitution(path.read_text(encoding="utf-8")))
     try:
         yaml.safe_load(text)

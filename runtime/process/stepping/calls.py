@@ -15,7 +15,7 @@ from . import lock as stepped_lock
 from . import one_cpu
 
 
-def _stepped() -> ClockSource | None:
+def _stepped_clock() -> ClockSource | None:
     clock = local.waits_on
     return clock if clock is not None and clock.stepped else None
 
@@ -25,11 +25,11 @@ def _reading(name: str, read: Callable[[ClockSource], int]) -> tuple[Callable[[]
     real_s, real_ns = getattr(time, name), getattr(time, f"{name}_ns")
 
     def seconds() -> float:
-        clock = _stepped()
+        clock = _stepped_clock()
         return real_s() if clock is None else read(clock) * 1e-9
 
     def nanoseconds() -> int:
-        clock = _stepped()
+        clock = _stepped_clock()
         return real_ns() if clock is None else read(clock)
 
     return seconds, nanoseconds
@@ -40,7 +40,7 @@ def _broken_down(name: str) -> Callable[..., Any]:
     real_call = getattr(time, name)
 
     def wrapped(seconds: float | None = None, /) -> Any:
-        clock = _stepped()
+        clock = _stepped_clock()
         return real_call(clock.system_ns() * 1e-9 if clock is not None and seconds is None else seconds)
 
     return wrapped

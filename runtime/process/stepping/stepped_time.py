@@ -142,7 +142,7 @@ def stepped(
     MAIN.clock = clock
     local.waits_on = clock if virtual_main else None
     try:
-        with _seeded(seed):
+        with _random_seed(seed):
             yield clock
     finally:
         clock.close()
@@ -150,7 +150,7 @@ def stepped(
 
 
 @contextmanager
-def _seeded(seed: int) -> Generator[None]:
+def _random_seed(seed: int) -> Generator[None]:
     before = random.getstate()
     random.seed(seed)
     numpy_random: Any = sys.modules.get("numpy.random")

@@ -169,7 +169,7 @@ class ActionServer(ActionEntity):
 
     async def _serve_goal(self, client: ClientEndpoint, number: int, request: Any) -> None:
         uuid = bytes(request.goal_id.uuid)
-        handle = await self._accepted(request, uuid)
+        handle = await self._accept_goal(request, uuid)
         response = self._action_type.Impl.SendGoalService.Response()
         response.accepted = handle is not None
         if handle is not None:
@@ -182,7 +182,7 @@ class ActionServer(ActionEntity):
         self._publish_status()
         await call(self._handle_accepted_callback, handle)
 
-    async def _accepted(self, request: Any, uuid: bytes) -> ServerGoalHandle | None:
+    async def _accept_goal(self, request: Any, uuid: bytes) -> ServerGoalHandle | None:
         """Return the handle of a goal that the goal callback accepts, else None; a known UUID is rejected."""
         self._debug("New goal request with ID: {}", request.goal_id.uuid)
         if uuid in self._goals:

@@ -73,7 +73,7 @@ class Formatter:
         # The default format is made without a template, which halves the time of a log line.
         if self._simple:
             return f"[{level}] [{seconds:010d}.{nanoseconds:09d}] [{name}]: {text}"
-        dated = _dated(seconds, nanoseconds) if self._dated else ""
+        dated = _date_text(seconds, nanoseconds) if self._dated else ""
         return self._template.format(
             level, name, text, file, function, line, f"{seconds:010d}", nanoseconds, stamp_ns, dated, int(on_rosout)
         )
@@ -92,14 +92,14 @@ class Formatter:
         """Print one message."""
         stream = sys.stdout if self._to_stdout else sys.stderr
         out = self.line(severity, name, text, file, function, line, stamp_ns, on_rosout)
-        if self._coloured(stream):
+        if self._uses_colours(stream):
             out = f"{COLOURS.get(severity, RESET)}{out}{RESET}"
         try:
             stream.write(out + "\n")
         except UnicodeEncodeError:  # lone surrogates, or a terminal that is not UTF-8
             stream.write(out.encode("utf-8", "backslashreplace").decode("ascii", "backslashreplace") + "\n")
 
-    def _coloured(self, stream: Any) -> bool:
+    def _uses_colours(self, stream: Any) -> bool:
         if self._colours in ("0", "1"):
             return self._colours == "1"
         return bool(stream.isatty())
@@ -126,14 +126,14 @@ def _template(pattern: str) -> str:
     end = 0
     for found in _TOKEN.finditer(pattern):
         if found[1] in _FIELDS:
-            parts += [_quoted(pattern[end : found.start()]), _FIELDS[found[1]]]
+            parts += [_escape_braces(pattern[end : found.start()]), _FIELDS[found[1]]]
             end = found.end()
-    return "".join([*parts, _quoted(pattern[end:])])
+    return "".join([*parts, _escape_braces(pattern[end:])])
 
 
-def _quoted(text: str) -> str:
+def _escape_braces(text: str) -> str:
     return text.replace("{", "{{").replace("}", "}}")
 
 
-def _dated(seconds: int, nanoseconds: int) -> str:
+def _date_text(seconds: int, nanoseconds: int) -> str:
     return time.strftime("%Y-%m-%d %H:%M:%S", time.localtime(seconds)) + f".{nanoseconds // 1_000_000:03d}"

@@ -56,11 +56,11 @@ class LifecycleServices:
                 return response
         valid = [each[0] for each in self._machine.available_transitions]
         if transition not in valid and distribution().invalid_transition_ends_node:
-            notify(current(), self._fatal(transition))
+            notify(current(), self._explain_invalid_transition(transition))
         response.success = self._change_state(transition) is TransitionCallbackReturn.SUCCESS
         return response
 
-    def _fatal(self, transition: int) -> str:
+    def _explain_invalid_transition(self, transition: int) -> str:
         """Return the effect of a request for an invalid transition, and what to request instead."""
         rows = [f"{number} ({label})" for number, label, *_ in self._machine.available_transitions]
         return (

@@ -59,12 +59,12 @@ class LifecycleStateMachine:
     @property
     def available_transitions(self) -> list[TransitionTuple]:
         """The transitions from the current state."""
-        return [_described(each) for each in self._valid()]
+        return [_transition_tuple(each) for each in self._valid()]
 
     @property
     def transition_graph(self) -> list[TransitionTuple]:
         """All transitions."""
-        return [_described(each) for each in TRANSITIONS]
+        return [_transition_tuple(each) for each in TRANSITIONS]
 
     def get_transition_by_label(self, label: str) -> int:
         """Return the id of a transition from the current state; raises `RCLError`."""
@@ -103,5 +103,5 @@ class LifecycleStateMachine:
             self._publish(event)
 
 
-def _described(row: TransitionRow) -> TransitionTuple:
+def _transition_tuple(row: TransitionRow) -> TransitionTuple:
     return row.id, row.label, row.start, STATES[row.start], row.goal, STATES[row.goal]

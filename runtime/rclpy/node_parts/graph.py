@@ -221,12 +221,12 @@ def _in_effect(asked: Profile) -> QoSProfile:
     return QoSProfile(
         history=HistoryPolicy[asked.history.name],
         depth=asked.depth,
-        reliability=_decided(asked.reliability, ReliabilityPolicy.RELIABLE),
-        durability=_decided(asked.durability, DurabilityPolicy.VOLATILE),
-        liveliness=_decided(asked.liveliness, LivelinessPolicy.AUTOMATIC),
-        lifespan=_limited(asked.lifespan),
-        deadline=_limited(asked.deadline),
-        liveliness_lease_duration=_limited(asked.liveliness_lease_duration),
+        reliability=_decide(asked.reliability, ReliabilityPolicy.RELIABLE),
+        durability=_decide(asked.durability, DurabilityPolicy.VOLATILE),
+        liveliness=_decide(asked.liveliness, LivelinessPolicy.AUTOMATIC),
+        lifespan=_limit(asked.lifespan),
+        deadline=_limit(asked.deadline),
+        liveliness_lease_duration=_limit(asked.liveliness_lease_duration),
         avoid_ros_namespace_conventions=isinstance(asked, QoSProfile) and asked.avoid_ros_namespace_conventions,
     )
 
@@ -239,11 +239,11 @@ def copy_profile(profile: QoSProfile) -> QoSProfile:
     return copy
 
 
-def _decided(policy: Policy, default: _P) -> _P:
+def _decide(policy: Policy, default: _P) -> _P:
     return default if policy.name in _UNDECIDED else type(default)[policy.name]
 
 
-def _limited(period: Period) -> Duration:
+def _limit(period: Period) -> Duration:
     return Duration(nanoseconds=period.nanoseconds) if period.nanoseconds else Infinite
 
 

@@ -41,13 +41,13 @@ Setter = Callable[[Any], Any]
 """A callback; it gets the list of parameters, or the sequence that the caller has passed."""
 
 
-def _invalid(callback: Setter, result: object) -> SetParametersResult:
+def _refuse_invalid_result(callback: Setter, result: object) -> SetParametersResult:
     """Return the refusal for a callback that did not return a `SetParametersResult`, after logging a warning."""
     warnings.warn("Callback returned an invalid type, it should return SetParameterResult.", stacklevel=1)
     hint = invalid_result(callback, result)
     if hint:
         notify(current(), hint)
-    return _refused("Callback returned an invalid type")
+    return _refusal_result("Callback returned an invalid type")
 
 
 def _check_callable(callback: object) -> None:
@@ -55,7 +55,7 @@ def _check_callable(callback: object) -> None:
         raise TypeError("Callback must be callable, got {}", type(callback))  # logged unformatted, as upstream
 
 
-def _refused(reason: str) -> SetParametersResult:
+def _refusal_result(reason: str) -> SetParametersResult:
     return SetParametersResult(successful=False, reason=reason)
 
 
@@ -85,7 +85,7 @@ class ParameterSetting(NodeEntities):
         if self._pre_set_parameters_callbacks:
             parameters = [each for callback in self._pre_set_parameters_callbacks for each in callback(parameters)]
             if not parameters:
-                return _refused(EMPTIED)
+                return _refusal_result(EMPTIED)
         self._ros_check_declared(parameters)
         return self._ros_commit(parameters)
 
@@ -116,11 +116,11 @@ class ParameterSetting(NodeEntities):
         """
         reason = self._ros_refusal(parameters, descriptors)
         if reason is not None:
-            return _refused(reason)
+            return _refusal_result(reason)
         for callback in self._on_set_parameters_callbacks:
             result = callback(parameters)
             if not isinstance(result, SetParametersResult):
-                return _invalid(callback, result)
+                return _refuse_invalid_result(callback, result)
             if not result.successful:
                 return result
         self._ros_use()  # the event needs the node's name; a destroyed node refuses it here, before anything is stored

@@ -136,8 +136,8 @@ class LockstepSession(Session):
     def watch_tokens(self, key: str, seen: TokenCallback, *, apart: bool = False) -> TokenWatch:
         """Call back for each token that exists, appears or disappears; `key` may have wildcards."""
 
-        def declare(link: Link) -> _Watch:
-            return _Watch(link, _pattern(key), watch)
+        def declare(link: Link) -> _TokenWatchEntry:
+            return _TokenWatchEntry(link, _pattern(key), watch)
 
         watch = TokenWatch(self, declare, seen)
         return self._declare(watch)
@@ -233,7 +233,7 @@ class _Token:
         self._link.see(self._key, False)
 
 
-class _Watch:
+class _TokenWatchEntry:
     def __init__(self, link: Link, pattern: re.Pattern[str], watch: TokenWatch) -> None:
         self._link = link
         self._number = next(link.numbers)

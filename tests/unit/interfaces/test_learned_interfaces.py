@@ -24,7 +24,7 @@ def learned_folder(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> Iterator[
     """A separate folder for what a test learns, which is forgotten afterwards."""
     folder = tmp_path / "kept"
     monkeypatch.setattr(learned_interfaces, "_folders", {})
-    monkeypatch.setattr(learned_interfaces, "_kept", lambda: folder)
+    monkeypatch.setattr(learned_interfaces, "_directory", lambda: folder)
     yield folder
     for name in [each for each in sys.modules if each.partition(".")[0].startswith("learned_")]:
         del sys.modules[name]
