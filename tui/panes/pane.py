@@ -190,8 +190,8 @@ class Pane(LazyParts):
     def ask_file(self, label: str, name: str, write: Callable[[Path], Answer], *, replaces: bool = True) -> None:
         """Ask for a file to write, with a confirmation if it would be replaced; then report the result.
 
-        `write` returns the answer to report, or raises `NotSaved`. With `replaces` false, it never replaces a file, so
-        nothing is confirmed.
+        `write` returns the answer to report, or raises `NotSaved`. With `replaces` false, it only changes parts of an
+        existing file, so nothing is confirmed.
         """
 
         def save(path: Path) -> None:

@@ -22,7 +22,7 @@ from textual.widgets import Static
 
 HELP = (
     "The panes stay live while you arrange them. The arrows select one; the keys below split, resize and move it.\n"
-    "w keeps the result under a name, o shows another layout, and Escape goes back to the panes."
+    "w saves the result under a name, o shows another layout, and Escape goes back to the panes."
 )
 DROPPED = (
     "arrange.open",

@@ -138,7 +138,7 @@ def test_next_match_without_search_or_matches_is_reported_in_each_pane(digits: s
             await session.press(digit)
             assert "Nothing was" not in session.text() and "Nothing here" not in session.text()
             await session.press("n")
-            assert "Nothing was searched for yet" in session.text()
+            assert "There is no search yet" in session.text()
             await session.press("slash", *"zzz", "enter", "escape", "n")
             assert "Nothing here matches zzz" in session.text()
 

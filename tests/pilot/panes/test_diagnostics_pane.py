@@ -41,7 +41,7 @@ def test_absence_of_diagnostics_is_explained_in_full() -> None:
         session.pane(DiagnosticsPane).tick()
         await session.settle()
         message = " ".join(session.text().replace("│", " ").split())
-        assert "no node publishes diagnostics (diagnostic_msgs/msg/DiagnosticArray) yet." in message
+        assert "no node publishes diagnostics yet (diagnostic_msgs/msg/DiagnosticArray)." in message
 
     run(live(), play, (120, 40))
 

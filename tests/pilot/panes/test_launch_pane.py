@@ -237,7 +237,7 @@ def test_a_lifecycle_node_makes_transitions_in_the_graph_too() -> None:
         assert session.console.graph.transitions == [(name, "activate")] and "no cable" in session.text()
         session.pane(GraphPane).go_to("/simulator")
         await session.press("T")
-        assert "no lifecycle node" in session.text()
+        assert "not a lifecycle node" in session.text()
 
     run(live(), play, (120, 40))
 

@@ -206,7 +206,7 @@ def test_command_is_repeated_and_dead_man_timeout_stops_once() -> None:
             pass_time(session, 0.1)
         assert len(commands(session)) == count, "zero is sent once"
         await session.settle()
-        assert "no key for 2 s: the robot stands" in session.text()
+        assert "no key for 2 s: the robot was stopped" in session.text()
         assert stops(session) == [("all_stop", True), ("steer", False)], "locked before steering is handed back"
         await session.press("w")
         assert len(commands(session)) == count, "a key alone moves nothing"
@@ -320,7 +320,7 @@ def test_enter_resumes_steering_a_robot_without_lock_after_timeout() -> None:
         steering(session).state.disarm()
         session.console.change(drive=stands)
         await session.settle()
-        assert "STOPPED  by zeros" in session.text()
+        assert "STOPPED  by zero Twists" in session.text()
         session.console.change(drive=replace(stands, stop_reason="ALL STOP"))
         await session.settle()
         await session.press("enter")

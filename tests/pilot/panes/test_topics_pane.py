@@ -474,7 +474,7 @@ def test_form_for_the_qos_of_the_open_topic_has_all_fields_and_explains_errors()
         await session.press("enter")
         asked = RequestedQos("reliable", "transient_local", "", 5)
         assert session.console.topics.qos == asked and session.console.topics.listening == ODOM_TOPIC
-        assert "heard reliable transient local depth 5" in session.text()
+        assert "requested reliable transient local depth 5" in session.text()
         await session.press("Q", "pagedown", "enter")
         assert session.console.topics.qos == RequestedQos("best_effort", "transient_local", "", 5)
 

@@ -36,7 +36,7 @@ def test_overwriting_a_profile_asks_with_file_and_time(tmp_path: Path) -> None:
         await session.press("enter")
         assert isinstance(session.app.screen, ConfirmScreen)
         text = session.text()
-        assert "Save over the profile zz_hall?" in text and "zz_hall.yaml" in text
+        assert "Overwrite the profile zz_hall?" in text and "zz_hall.yaml" in text
         assert "changed 2023-11-1" in text, "when it was changed"
         await session.press("n")
         assert profile_requests(session) == []

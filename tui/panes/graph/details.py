@@ -60,7 +60,9 @@ def _topic(info: GraphInfo, name: str) -> Iterator[Option]:
     types = topic_types(info, name)
     for each in types:
         yield Option(
-            f"type {each}", "more than one type: these ends do not connect" if len(types) > 1 else "", TYPE + each
+            f"type {each}",
+            "more than one type: endpoints of different types do not connect" if len(types) > 1 else "",
+            TYPE + each,
         )
     qos = {
         (node.name, publishing): each.qos

@@ -362,7 +362,7 @@ class LaunchPane(ListPane):
         def write(path: Path) -> Answer:
             return self.console.graph.write_launch(str(path))
 
-        self.ask_file("write a launch file for what runs", "live.launch.py", write, replaces=False)
+        self.ask_file("write a launch file for the running system", "live.launch.py", write, replaces=False)
 
     def action_open(self) -> None:
         """Ask for a launch file and its arguments, then launch it."""

@@ -204,7 +204,7 @@ def step_lines(view: LessonView, columns: int = 0) -> Text:
     The condition matters most: if it does not fit into the columns, the title is left out, and if it then needs two
     lines, what to type is left out, too.
     """
-    waiting = sanitize(next((text for held, text in view.waits if not held), "done; n goes on"))
+    waiting = sanitize(next((text for held, text in view.waits if not held), "done; n shows the next step"))
     head, title = f"{view.number}/{view.total}", f" {sanitize(view.title)}"
     if 0 < columns < len(f"{head}{title}  {waiting}"):
         title = ""

@@ -64,7 +64,7 @@ class LinePane(ListPane):
             self.post_message(self.PaneWanted(happened.pane, ""))
 
         find = partial(options_of, found, record.stamp)
-        self.ask(Choice(f"Before {record.text[:60]}", go, find=find, empty="Nothing of that kind happened before."))
+        self.ask(Choice(f"Before {record.text[:60]}", go, find=find, empty="No such event happened before."))
 
     def action_copy(self) -> None:
         """Copy the message through the terminal (OSC 52)."""

@@ -17,7 +17,7 @@ HIDE, OFF = "hide", "off"
 MAX_FILE_BYTES = 100_000
 """Maximum size of a rule file in bytes; a larger one is ignored."""
 HEAD = f"""\
-# Rules of the log, one a line: `{HIDE}` or a colour ({", ".join(COLOURS)}), then the words of a filter.
+# Rules of the log, one per line: `{HIDE}` or a colour ({", ".join(COLOURS)}), then the words of a filter.
 # `{OFF}` in front of a rule switches it off. `F` in the Logs pane shows and changes them.
 """
 

@@ -42,7 +42,7 @@ class UserProfiles:
             return
         changed = f", changed {reported}" if (reported := _changed(there.path)) else ""
         reasons = f"{there.path}{changed}:\nits values are replaced by the running ones; its comments stay."
-        question = Confirmation(f"Save over the profile {name}?", lambda _: self._save(name, ""), reasons=reasons)
+        question = Confirmation(f"Overwrite the profile {name}?", lambda _: self._save(name, ""), reasons=reasons)
         self.later(self.ask, question)
 
     def _save(self, name: str, description: str) -> None:

@@ -133,7 +133,7 @@ def _state_line(state: Steering, drive: DriveInfo, width: int) -> Line:
         return _line_without_keys(drive, topic)
     if drive.stopped and not drive.lockable and is_stopped_after_steering(drive):
         key = stop_key_text(drive, "ends them")
-        return ((" STOPPED ", "warn"), (f" by zeros, having no emergency stop: Enter resumes steering, {key}", ""))
+        return ((" STOPPED ", "warn"), (f" by zero Twists (no emergency stop): Enter resumes steering, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
     if drive.stopped and is_stopped_after_steering(drive):
@@ -186,7 +186,7 @@ def _slider(word: str, value: float, greatest: float, unit: str, width: int, *, 
 
 def _deadman(state: Steering, left: float) -> Line:
     if state.expired:
-        return ((f" no key for {state.deadman:g} s: the robot stands", "warn"),)
+        return ((f" no key for {state.deadman:g} s: the robot was stopped", "warn"),)
     full = round(left * BAR_CELLS)
     moving = state.moving
     rate = "" if state.rate == RATE_HZ else f", {state.rate:g} Hz"

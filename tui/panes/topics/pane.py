@@ -223,7 +223,7 @@ class TopicsPane(ListPane):
 
     def _message_state(self, heard: LiveMessage) -> str:
         asked = self._qos.get(self._topic)
-        qos = f"heard {asked.text}  " if asked else ""
+        qos = f"requested {asked.text}  " if asked else ""
         if heard.problem:
             return f"{self._topic}  {heard.problem}"
         if not heard.count:
@@ -240,7 +240,7 @@ class TopicsPane(ListPane):
     def _report(self) -> None:
         """Update the caption, the placeholder, and the status line on the row at the cursor."""
         shown, row = self._list, self._list.current
-        self.report_filter(self._listed, self._every, "hidden ones too" if self._hidden else "")
+        self.report_filter(self._listed, self._every, "including hidden" if self._hidden else "")
         shown.show_placeholder(FILTERED_OUT if self.words else _empty(self._kind))
         text = self._about(row) if row is not None else self._problem
         status = self.query_one("#topics-status", StaticText)

@@ -56,7 +56,7 @@ class Searchable(Widget):
     def action_find(self, step: int) -> None:
         """Go to the next or the previous match."""
         if not self._sought:
-            self.notify("Nothing was searched for yet; / starts a search.")
+            self.notify("There is no search yet; / starts one.")
         elif not self.find(self._sought, step):
             self.notify(f"Nothing here matches {self._sought}", severity="warning", markup=False)
 

@@ -74,4 +74,4 @@ def _rank(path: str) -> int:
 def _about(path: str) -> str:
     if is_parameter(path):
         return "parameter"
-    return ("", "another element by its number", "of the whole array")[_rank(path)]
+    return ("", "or another element by its index", "of the whole array")[_rank(path)]
