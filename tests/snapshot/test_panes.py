@@ -1,4 +1,4 @@
-"""The look of every pane: empty, live, with faults, narrow, and larger. Review each difference as a design change."""
+"""The appearance of every pane: empty, live, with faults, narrow, and larger. Review differences as design changes."""
 
 from __future__ import annotations
 
