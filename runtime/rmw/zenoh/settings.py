@@ -13,9 +13,9 @@ from typing import Any, NamedTuple, cast
 
 from bot_console.runtime.rmw.zenoh.congestion_control import (
     NARROW,
-    ROOM_OF_A_LINK,
-    ROOM_OF_A_NETWORK,
     SMALL_BATCH,
+    forwarding_rules,
+    network_queue_settings,
     queue_settings,
 )
 
@@ -79,7 +79,6 @@ def session_settings(
     and the mesh, and announces peers to each other by gossip; the mesh's own processes are linked directly.
     """
     beside = serving.endpoints if serving else ()
-    room = ROOM_OF_A_NETWORK if serving else ROOM_OF_A_LINK
     return {
         "id": zid,
         **(
@@ -97,6 +96,7 @@ def session_settings(
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": bool(serving)}},
         "open": {"return_conditions": {"connect_scouted": False, "declares": False}},
         "timestamping": {"enabled": True},
+        **({"qos": forwarding_rules()} if serving else {}),
         "transport": {
             "shared_memory": {"enabled": False},
             "auth": dict(auth or {}),
@@ -106,7 +106,7 @@ def session_settings(
                 "tx": {
                     # Links to other machines have Zenoh's default lease.
                     **({"batch_size": SMALL_BATCH} if serving else {"lease": LEASE_MS}),
-                    "queue": queue_settings(room),
+                    "queue": network_queue_settings() if serving else queue_settings(),
                 },
             },
         },

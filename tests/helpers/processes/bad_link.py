@@ -13,6 +13,8 @@ from collections.abc import Callable
 SEGMENT = 1400
 UNDER_WAY = 1000
 """Segments per direction that may be in transit at once: enough that the delay does not limit the rate."""
+NARROW_BUFFER = 4096
+"""Receive buffer of a narrow link's sockets in bytes (Linux doubles it)."""
 Segments = queue.Queue["tuple[float, bytes]"]
 """Segments with the time when each is due; empty bytes mark the end."""
 Spoil = Callable[[bytes], bytes]
@@ -20,10 +22,14 @@ Spoil = Callable[[bytes], bytes]
 
 class BadLink:
     """Forwards what arrives at `port`; in each direction every segment is delayed by `delay` s, and some by `hold` s
-    more."""
+    more. With a `rate` (bytes/s), it also carries no more than that and buffers little.
+    """
 
-    def __init__(self, to: int) -> None:
+    def __init__(self, to: int, rate: float = 0.0) -> None:
         self._to = to
+        self._rate = rate
+        self.connections = 0
+        """How many connections have been accepted so far."""
         self.delay = 0.0
         self.hold, self.held_share = 0.0, 0.0
         self.spoil: Spoil | None = None
@@ -32,6 +38,8 @@ class BadLink:
         self._passing.set()
         self._sockets: list[socket.socket] = []
         self._server = socket.create_server(("127.0.0.1", 0))
+        if rate:
+            self._server.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, NARROW_BUFFER)
         self.port: int = self._server.getsockname()[1]
         threading.Thread(target=self._accept, daemon=True).start()
 
@@ -59,15 +67,20 @@ class BadLink:
         with contextlib.suppress(OSError):
             while True:
                 inner, _ = self._server.accept()
+                self.connections += 1
+                outer = socket.socket()
+                if self._rate:
+                    outer.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, NARROW_BUFFER)
                 try:
-                    outer = socket.create_connection(("127.0.0.1", self._to))
+                    outer.connect(("127.0.0.1", self._to))
                 except OSError:
                     inner.close()
+                    outer.close()
                     continue
                 self._sockets += (inner, outer)
                 for one, other in ((inner, outer), (outer, inner)):
                     one.setsockopt(socket.IPPROTO_TCP, socket.TCP_NODELAY, 1)
-                    under_way: Segments = queue.Queue(UNDER_WAY)
+                    under_way: Segments = queue.Queue(1 if self._rate else UNDER_WAY)
                     threading.Thread(target=self._take, args=(one, under_way), daemon=True).start()
                     threading.Thread(target=self._bring, args=(under_way, one, other), daemon=True).start()
 
@@ -77,6 +90,8 @@ class BadLink:
             while data := one.recv(SEGMENT):
                 held = self.hold if self._random.random() < self.held_share else 0.0
                 due = max(due, time.monotonic() + self.delay + held)  # in order, as TCP delivers
+                if self._rate:
+                    due += len(data) / self._rate
                 under_way.put((due, data))
                 self._passing.wait()
         under_way.put((0.0, b""))

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 from bot_console.runtime.rmw.qos_matching import RMW_ZENOH, QosRules
+from bot_console.runtime.rmw.zenoh.congestion_control import history_rules
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe, LinkState
 from bot_console.runtime.rmw.zenoh.network.frozen_processes import StoppedBehindRouter
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls, why_unreachable
@@ -76,6 +77,7 @@ def client_settings(zid: str, way: Way) -> dict[str, object]:
         "listen": {"endpoints": []},
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": False}},
         "timestamping": {"enabled": True},
+        "qos": history_rules(),
         "queries_default_timeout": QUERY_TIMEOUT_MS,
         "transport": {"shared_memory": {"enabled": False}, "link": {"tls": way.tls.as_client()}},
     }

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.runtime.rmw.zenoh.congestion_control import ROOM_OF_A_NETWORK, SMALL_BATCH
+from bot_console.runtime.rmw.zenoh.congestion_control import SMALL_BATCH, forwarding_rules, network_queue_settings
 from bot_console.runtime.rmw.zenoh.session import Session, SessionError, SettingsError
 from bot_console.runtime.rmw.zenoh.settings import Serving, network_link
 
@@ -16,11 +16,12 @@ def router_settings(zid: str, serving: Serving) -> dict[str, object]:
         "connect": {"endpoints": []},
         "scouting": {"multicast": {"enabled": False}, "gossip": {"enabled": True}},
         "timestamping": {"enabled": True},
+        "qos": forwarding_rules(),
         "transport": {
             "shared_memory": {"enabled": False},
             "link": {
                 **network_link(serving),
-                "tx": {"batch_size": SMALL_BATCH, "queue": {"size": {"data": ROOM_OF_A_NETWORK}}},
+                "tx": {"batch_size": SMALL_BATCH, "queue": network_queue_settings()},
             },
         },
     }
