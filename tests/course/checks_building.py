@@ -8,7 +8,7 @@ from course.table import row
 
 
 @row(83, 260, 270, 363, 369)
-def a_changed_source_counts_after_the_line(page: Page, row: Row) -> None:
+def check_changed_source_takes_effect(page: Page, row: Row) -> None:
     """A missing package is reported as colcon reports it."""
     workspace = make_workspace(page.scratch)
     page.work_on(workspace)

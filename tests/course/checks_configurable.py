@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from course.checks_parameters import starts
+from course.checks_parameters import run_row
 from course.page import Page, logs
 from course.rows import Row
 from course.table import row
@@ -14,13 +14,13 @@ NODE = "/configurable_robot"
 EXERCISE = Path(__file__).parent / "exercise_robot.py"
 
 
-def robot_runs(page: Page) -> Program:
+def start_robot(page: Page) -> Program:
     return page.node_file("configurable_robot.py")
 
 
 @row(40)
-def it_runs_as_printed(page: Page, row: Row) -> None:
-    robot = robot_runs(page)
+def check_robot_runs_as_printed(page: Page, row: Row) -> None:
+    robot = start_robot(page)
     defaults = {"max_speed": "1.0", "safety_distance": "0.5", "detection_threshold": "100", "enable_safety": "True"}
     assert {name: page.value(NODE, name) for name in defaults} == defaults
     info = page.ask(f"ros2 node info {NODE}").stdout
@@ -30,8 +30,8 @@ def it_runs_as_printed(page: Page, row: Row) -> None:
 
 
 @row(41, 42, 43)
-def a_number_is_changed(page: Page, row: Row) -> None:
-    robot = robot_runs(page)
+def check_number_is_changed(page: Page, row: Row) -> None:
+    robot = start_robot(page)
     name, value = {41: ("max_speed", "2.5"), 42: ("safety_distance", "0.9"), 43: ("detection_threshold", "42")}[
         row.number
     ]
@@ -40,14 +40,14 @@ def a_number_is_changed(page: Page, row: Row) -> None:
 
 
 @row(44)
-def safety_is_switched(page: Page, row: Row) -> None:
-    robot = robot_runs(page)
+def check_safety_is_switched(page: Page, row: Row) -> None:
+    robot = start_robot(page)
     for value, text in zip(("true", "false"), row.quoted, strict=True):
         page.ask(f"ros2 param set {NODE} enable_safety {value}")
         assert logs(robot)[-1].message == text
 
 
-def after_a_scan(page: Page, nearest: float) -> str:
+def speed_after_scan(page: Page, nearest: float) -> str:
     """`linear.x` of the robot's response to a scan."""
     echo = page.start("ros2 topic echo /cmd_vel --once --field linear.x")
     page.ask(f"ros2 topic pub --once /scan sensor_msgs/msg/LaserScan '{{ranges: [3.0, {nearest}]}}'")
@@ -55,32 +55,32 @@ def after_a_scan(page: Page, nearest: float) -> str:
 
 
 @row(45)
-def it_stops_before_an_obstacle(page: Page, row: Row) -> None:
-    robot = robot_runs(page)
-    assert after_a_scan(page, 0.25) == "0.0"
+def check_robot_stops_before_an_obstacle(page: Page, row: Row) -> None:
+    robot = start_robot(page)
+    assert speed_after_scan(page, 0.25) == "0.0"
     assert logs(robot)[-1] == ("WARN", "configurable_robot", row.quoted[1].replace("<d, 2 decimals>", "0.25"))
 
 
 @row(46)
-def it_goes_on_otherwise(page: Page, row: Row) -> None:
-    robot_runs(page)
+def check_robot_drives_on_without_an_obstacle(page: Page, row: Row) -> None:
+    start_robot(page)
     page.ask(f"ros2 param set {NODE} max_speed 1.5")
-    assert after_a_scan(page, 2.0) == "1.5"
+    assert speed_after_scan(page, 2.0) == "1.5"
     page.ask(f"ros2 param set {NODE} enable_safety false")
-    assert after_a_scan(page, 0.25) == "1.5"
+    assert speed_after_scan(page, 0.25) == "1.5"
 
 
 @row(48)
-def parameters_are_listed(page: Page, row: Row) -> None:
-    starts(page, 47)
+def check_parameters_are_listed(page: Page, row: Row) -> None:
+    run_row(page, 47)
     listed = page.ask(row.command).stdout.split()
     assert {"max_speed", "safety_distance", "detection_threshold", "enable_safety"} <= set(listed)
 
 
 @row(49)
-def the_value_of_the_command_line_is_there(page: Page, row: Row) -> None:
+def check_value_of_the_command_line_is_set(page: Page, row: Row) -> None:
     """The value in the node, which includes later changes."""
-    starts(page, 47)
+    run_row(page, 47)
     assert page.ask(row.command).stdout == "Double value is: 2.5\n"
     assert page.ask(row.command.replace("max_speed", "safety_distance")).stdout == "Double value is: 0.8\n"
     page.ask(f"ros2 param set {NODE} max_speed 1.25")
@@ -88,16 +88,16 @@ def the_value_of_the_command_line_is_there(page: Page, row: Row) -> None:
 
 
 @row(50)
-def the_value_is_set(page: Page, row: Row) -> None:
-    starts(page, 47)
+def check_value_is_set(page: Page, row: Row) -> None:
+    run_row(page, 47)
     assert page.ask(row.command).stdout == "Set parameter successful\n"
     assert page.ask(page.row(49).command).stdout == "Double value is: 3.0\n"
 
 
 @row(51)
-def dump_has_no_such_option(page: Page, row: Row) -> None:
+def check_dump_has_no_such_option(page: Page, row: Row) -> None:
     """As in current ROS 2 (N6); without the option the parameters are printed."""
-    starts(page, 47)
+    run_row(page, 47)
     answer = page.ask(row.command)
     assert answer.exit == 2
     assert "unrecognized arguments: --output-dir" in answer.stderr
@@ -105,9 +105,9 @@ def dump_has_no_such_option(page: Page, row: Row) -> None:
 
 
 @row(52)
-def the_file_loads(page: Page, row: Row) -> None:
+def check_file_loads(page: Page, row: Row) -> None:
     """A name that the node does not declare is ignored (N7)."""
-    starts(page, 53)
+    run_row(page, 53)
     stated = {"max_speed": "2.0", "safety_distance": "0.6", "detection_threshold": "120", "enable_safety": "True"}
     assert {name: page.value(NODE, name) for name in stated} == stated
     assert page.ask(f"ros2 param get {NODE} robot_name").stderr == "Parameter not set\n"
@@ -118,7 +118,7 @@ def exercise(page: Page) -> None:
 
 
 @row(54, 55, 56, 57)
-def the_exercise_declares_the_parameter(page: Page, row: Row) -> None:
+def check_exercise_declares_the_parameter(page: Page, row: Row) -> None:
     exercise(page)
     name, kind = {
         54: ("robot_name", "string"),
@@ -132,7 +132,7 @@ def the_exercise_declares_the_parameter(page: Page, row: Row) -> None:
 
 
 @row(58)
-def the_exercise_is_changed_at_runtime(page: Page, row: Row) -> None:
+def check_exercise_is_changed_at_runtime(page: Page, row: Row) -> None:
     exercise(page)
     for name, value in (("robot_name", "Ada"), ("max_speed", "4.5"), ("turn_rate", "0.3"), ("autonomous_mode", "true")):
         assert page.ask(f"ros2 param set /exercise_robot {name} {value}").stdout == "Set parameter successful\n"

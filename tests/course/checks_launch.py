@@ -29,64 +29,64 @@ def nodes(page: Page) -> list[str]:
     return page.ask("ros2 node list").stdout.split()
 
 
-def has(page: Page, node: str, **values: str) -> None:
+def assert_values(page: Page, node: str, **values: str) -> None:
     assert {name: page.value(f"/{node}", name) for name in values} == values
 
 
 @row(64)
-def step_1_loads(page: Page, row: Row) -> None:
+def check_step_1_loads(page: Page, row: Row) -> None:
     launch = start_launch(page, page.row(65).command)
     assert nodes(page) == ["/my_robot"]
     assert ("INFO", "my_robot", "Robot initialized with speed: 1.0 m/s") in logs(launch)
 
 
 @row(65, 69, 88, 106)
-def the_command_launches(page: Page, row: Row) -> None:
+def check_command_launches(page: Page, row: Row) -> None:
     launch = start_launch(page, row.command)
     assert re.search(r"\[INFO\] \[\w+-1\]: process started with pid \[\d+\]", launch.stdout)
     assert page.stop(launch).exit is not None
 
 
 @row(66, 67, alike=True)
-def the_node_is_listed(page: Page, row: Row) -> None:
+def check_node_is_listed(page: Page, row: Row) -> None:
     start_launch(page, page.row(65).command)
     assert page.ask(page.row(66).command).stdout == f"{page.row(67).command}\n"
 
 
 @row(60, 68, alike=True)
-def step_2_gives_parameters(page: Page, row: Row) -> None:
+def check_step_2_gives_parameters(page: Page, row: Row) -> None:
     start_launch(page, page.row(69).command)
-    has(page, "explorer_bot", speed="2.0", robot_name="Explorer-1", enable_safety="True")
+    assert_values(page, "explorer_bot", speed="2.0", robot_name="Explorer-1", enable_safety="True")
 
 
 @row(70, 71, 72)
-def step_2_says(page: Page, row: Row) -> None:
+def check_output_of_step_2(page: Page, row: Row) -> None:
     launch = start_launch(page, page.row(69).command)
     assert message_of(launch, stated(row.command)) == 1
     assert f"[simple_robot_step2-1] [{stated(row.command).severity}] [" in launch.stdout
 
 
 @row(59, 73, complete=True, alike=True)
-def step_3_starts_three_nodes(page: Page, row: Row) -> None:
+def check_step_3_starts_three_nodes(page: Page, row: Row) -> None:
     start_launch(page, page.row(74).command)
     assert nodes(page) == sorted(f"/{each}" for each in PRINTED_NODES)
     for name, values in PRINTED_NODES.items():
-        has(page, name, **values)
+        assert_values(page, name, **values)
 
 
-def lacks(page: Page, command: str, executable: str) -> None:
+def assert_missing(page: Page, command: str, executable: str) -> None:
     launch = page.ask(command)
     assert launch.exit == 1
     assert f"executable '{executable}' not found" in launch.stdout + launch.stderr
 
 
 @row(74, 85)
-def without_the_executables_that_are_not_printed_it_says_which_is_missing(page: Page, row: Row) -> None:
-    lacks(page, row.command, "sensor_processor")
+def check_missing_executables_are_named(page: Page, row: Row) -> None:
+    assert_missing(page, row.command, "sensor_processor")
 
 
 @row(75, 76, 77, 78, complete=True)
-def the_three_nodes_are_listed(page: Page, row: Row) -> None:
+def check_three_nodes_are_listed(page: Page, row: Row) -> None:
     """In alphabetical order, not in the page's (N9)."""
     start_launch(page, page.row(74).command)
     listed = page.ask(page.row(75).command).stdout.split()
@@ -102,26 +102,26 @@ FROM_FILE = {
 
 
 @row(79, 80, complete=True, alike=True)
-def step_4_gives_the_file_to_all(page: Page, row: Row) -> None:
+def check_step_4_gives_the_file_to_all_nodes(page: Page, row: Row) -> None:
     start_launch(page, page.row(85).command)
     for name, values in FROM_FILE.items():
-        has(page, name, **values)
+        assert_values(page, name, **values)
 
 
 @row(86)
-def step_5_has_arguments(page: Page, row: Row) -> None:
+def check_step_5_has_arguments(page: Page, row: Row) -> None:
     start_launch(page, page.row(88).command)
-    has(page, "configurable_robot", speed="1.0", robot_name="MyRobot", enable_safety="True")
+    assert_values(page, "configurable_robot", speed="1.0", robot_name="MyRobot", enable_safety="True")
 
 
 @row(87, 89, alike=True)
-def arguments_are_overridden(page: Page, row: Row) -> None:
+def check_arguments_are_overridden(page: Page, row: Row) -> None:
     start_launch(page, page.row(89).command)
-    has(page, "configurable_robot", speed="3.0", robot_name="SpeedRacer", enable_safety="False")
+    assert_values(page, "configurable_robot", speed="3.0", robot_name="SpeedRacer", enable_safety="False")
 
 
 @row(90, 91, 92, 93, 94)
-def arguments_are_shown(page: Page, row: Row) -> None:
+def check_arguments_are_shown(page: Page, row: Row) -> None:
     """The text is that of real ROS 2, including what the page omits (N10)."""
     shown = page.ask(page.row(90).command)
     assert (shown.exit, shown.stderr) == (0, "")
@@ -133,17 +133,17 @@ def arguments_are_shown(page: Page, row: Row) -> None:
 
 
 @row(95)
-def the_basic_file_loads(page: Page, row: Row) -> None:
+def check_basic_file_loads(page: Page, row: Row) -> None:
     start_launch(page, "ros2 launch my_package basic_launch.py")
-    has(page, "robot_node", max_speed="2.0", safety_distance="0.5")
+    assert_values(page, "robot_node", max_speed="2.0", safety_distance="0.5")
 
 
 @row(96, 105, complete=True, alike=True)
-def the_system_loads(page: Page, row: Row) -> None:
+def check_system_loads(page: Page, row: Row) -> None:
     """The configuration file has another key, so the defaults stay (N7)."""
     start_launch(page, page.row(105).command)
     assert nodes(page) == ["/controller", "/planner", "/robot_navigator", "/sensor_handler"]
-    has(page, "robot_navigator", max_speed="1.0")
+    assert_values(page, "robot_navigator", max_speed="1.0")
     shown = page.ask(f"{page.row(105).command} --show-args").stdout
     assert "    'use_sim_time':\n        Use simulation clock if true\n        (default: 'false')\n" in shown
     assert re.search(r"    'config_file':\n        .*\n        \(default: '.*robot_config.yaml'\)\n", shown)
@@ -163,7 +163,7 @@ def generate_launch_description():
 
 
 @row(61)
-def namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
+def check_namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
     """No listing of the page has a namespace: two of its robots in different namespaces drive on separate topics."""
     file = page.scratch / "namespaces.launch.py"
     file.write_text(NAMESPACES, "utf-8")
@@ -175,7 +175,7 @@ def namespaces_and_remappings_are_configured(page: Page, row: Row) -> None:
 
 
 @row(97, complete=True)
-def topics_are_remapped(page: Page, row: Row) -> None:
+def check_topics_are_remapped(page: Page, row: Row) -> None:
     start_launch(page, page.row(105).command)
     info = page.ask("ros2 node info /robot_navigator").stdout
     assert "    /robot/scan: sensor_msgs/msg/LaserScan\n" in info
@@ -184,10 +184,10 @@ def topics_are_remapped(page: Page, row: Row) -> None:
 
 
 @row(98, complete=True)
-def each_node_gets_its_own(page: Page, row: Row) -> None:
+def check_each_node_gets_its_own_parameters(page: Page, row: Row) -> None:
     launch = start_launch(page, page.row(105).command)
-    has(page, "sensor_handler", detection_threshold="100", update_rate="10.0")
-    has(page, "planner", algorithm="A*", resolution="0.05")
+    assert_values(page, "sensor_handler", detection_threshold="100", update_rate="10.0")
+    assert_values(page, "planner", algorithm="A*", resolution="0.05")
     command = next(
         line for line in page.stop(launch).stdout.splitlines() if "motion_controller-4" in line and "cmd '" in line
     )
@@ -198,28 +198,28 @@ VALUES = ("max_speed", "safety_distance", "detection_threshold", "enable_safety"
 
 
 @row(99, 100, 101, 102, 103, 104)
-def the_environment_chooses_the_values(page: Page, row: Row) -> None:
+def check_environment_selects_the_values(page: Page, row: Row) -> None:
     name = re.match(r"environment (\w+): .* = (.*)", row.text)
     environment = name[1] if name else "indoor" if row.number == 99 else "moon"
     stated = name or re.match(r"environment (\w+): .* = (.*)", page.row(100).text)
     assert stated is not None
     argument = "" if row.number == 99 else f" environment:={environment}"
     start_launch(page, f"ros2 launch my_package multi_environment_launch.py{argument}")
-    has(page, f"robot_{environment}", **dict(zip(VALUES, stated[2].split(", "), strict=True)))
+    assert_values(page, f"robot_{environment}", **dict(zip(VALUES, stated[2].split(", "), strict=True)))
 
 
 @row(107, complete=True)
-def a_file_that_is_not_there_leaves_the_defaults(page: Page, row: Row) -> None:
+def check_missing_file_keeps_the_defaults(page: Page, row: Row) -> None:
     """Real launch warns and starts the nodes (N11)."""
     launch = start_launch(page, row.command)
     assert "Parameter file path is not a file: /path/to/custom_config.yaml" in "".join(
         each for _, each in launch.output
     )
-    has(page, "robot_navigator", max_speed="1.0")
+    assert_values(page, "robot_navigator", max_speed="1.0")
 
 
 @row(108)
-def without_a_file_the_launch_files_are_listed(page: Page, row: Row) -> None:
+def check_launch_files_are_listed_without_a_file(page: Page, row: Row) -> None:
     """As the page says; real ROS 2 refuses (N12)."""
     answer = page.ask(row.command)
     assert answer.exit == 0
@@ -229,18 +229,18 @@ def without_a_file_the_launch_files_are_listed(page: Page, row: Row) -> None:
 PROJECT = ("robot_navigator", "sensor_handler", "safety_monitor", "telemetry_publisher")
 
 
-def runs_all_four(page: Page, command: str) -> Program:
+def launch_all_four_nodes(page: Page, command: str) -> Program:
     launch = start_launch(page, command)
     assert {f"/{each}" for each in PROJECT} <= set(nodes(page))
     return launch
 
 
 @row(268, complete=True)
-def the_projects_launch_file_gives_all_nodes_the_file(page: Page, row: Row) -> None:
-    runs_all_four(page, page.row(272).command)
+def check_launch_file_of_the_project_gives_all_nodes_the_file(page: Page, row: Row) -> None:
+    launch_all_four_nodes(page, page.row(272).command)
     assert nodes(page) == sorted(f"/{each}" for each in PROJECT)
-    has(page, "robot_navigator", detection_threshold="150", robot_name="IndoorBot")
-    has(page, "safety_monitor", emergency_stop_distance="0.3", warning_distance="0.7")
+    assert_values(page, "robot_navigator", detection_threshold="150", robot_name="IndoorBot")
+    assert_values(page, "safety_monitor", emergency_stop_distance="0.3", warning_distance="0.7")
 
 
 _listed: list[str] = []
@@ -248,35 +248,35 @@ _listed: list[str] = []
 
 
 @row(272, 274, 275, 276, 277, 278, 279, own=True)
-def our_system_has_the_projects_nodes(page: Page, row: Row) -> None:
+def check_our_system_has_the_nodes_of_the_project(page: Page, row: Row) -> None:
     """Launched once for all rows."""
     if not _listed:
-        runs_all_four(page, page.row(274).command)
+        launch_all_four_nodes(page, page.row(274).command)
         _listed.extend(page.ask(page.row(275).command).stdout.split())
     assert row.number < 276 or row.command in _listed
 
 
 @row(185, complete=True)
-def the_whole_system_is_launched_for_the_tools(page: Page, row: Row) -> None:
-    launch = runs_all_four(page, page.row(272).command)
+def check_whole_system_is_launched_for_the_tools(page: Page, row: Row) -> None:
+    launch = launch_all_four_nodes(page, page.row(272).command)
     for name in PROJECT:
         assert page.ask(f"ros2 param list /{name}").stdout.strip(), f"{name} cannot be tuned"
     assert "robot_navigator" in {each.logger for each in logs(launch)}, "the console has nothing to show of it"
 
 
 @row(324, own=True)
-def our_system_is_launched_for_the_tools(page: Page, row: Row) -> None:
-    launch = runs_all_four(page, "ros2 launch intelligent_robot multi_node_system.launch.py")
+def check_our_system_is_launched_for_the_tools(page: Page, row: Row) -> None:
+    launch = launch_all_four_nodes(page, "ros2 launch intelligent_robot multi_node_system.launch.py")
     assert launch.exit is None and {each.logger for each in logs(launch)} >= {*PROJECT}
     moving = page.ask("ros2 topic echo /odom --field twist.twist.linear.x", stop_after=3.0).stdout
     assert any(float(each) > 0.1 for each in moving.replace("---", "").split()), "the robot stands: nothing to plot"
 
 
 @row(273, 285, 286, 287, 288, own=True)
-def the_environment_is_switched(page: Page, row: Row) -> None:
+def check_environment_is_switched(page: Page, row: Row) -> None:
     """The file is looked for where the command runs (N11): beside the share folder's `config`."""
     page.work_in(page.ask("ros2 pkg prefix --share intelligent_robot").stdout.strip())
-    launch = runs_all_four(page, row.command)
+    launch = launch_all_four_nodes(page, row.command)
     assert "is not a file" not in "".join(each for _, each in launch.output)
     file = row.command.partition(":=")[2]
     stated = yaml.safe_load(Path(file).read_text("utf-8"))["robot_navigator"]["ros__parameters"]
@@ -284,12 +284,12 @@ def the_environment_is_switched(page: Page, row: Row) -> None:
 
 
 @row(295, 296, 297, 298, 333, 347, own=True, alike=True)
-def our_launch_file_starts_the_node(page: Page, row: Row) -> None:
-    runs_all_four(page, "ros2 launch intelligent_robot robot_system.launch.py")
+def check_our_launch_file_starts_the_node(page: Page, row: Row) -> None:
+    launch_all_four_nodes(page, "ros2 launch intelligent_robot robot_system.launch.py")
 
 
 @row(321, 322, 323, own=True)
-def the_launch_file_is_there(page: Page, row: Row) -> None:
+def check_launch_file_exists(page: Page, row: Row) -> None:
     name = re.search(r"[\w.]+\.py", row.text)
     assert name is not None
     start_launch(page, f"ros2 launch intelligent_robot {name[0]}")

@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any, NamedTuple
 
 import yaml
-from course.checks_own_robot import FIXED, NAVIGATOR, NODES, flat, start
+from course.checks_own_robot import FIXED, NAVIGATOR, NODES, flatten, start
 from course.page import Page, logs
 from course.rows import Row
 from course.table import row
@@ -52,17 +52,17 @@ def answer(page: Page, distance: float, intensity: float = 255.0) -> Answer:
     return answers(page, distance, intensity=intensity)[0]
 
 
-def put(page: Page, name: str, value: str) -> None:
+def set_parameter(page: Page, name: str, value: str) -> None:
     assert page.ask(f"ros2 param set {NAVIGATOR} {name} {value}").stdout == "Set parameter successful\n"
     assert page.value(NAVIGATOR, name) == value
 
 
-def introductions(program: Program) -> int:
+def count_introductions(program: Program) -> int:
     return sum(each.message.endswith("initialized!") for each in logs(program))
 
 
 @row(312, own=True)
-def the_robot_has_all_of_it(page: Page, row: Row) -> None:
+def check_robot_has_all_features(page: Page, row: Row) -> None:
     """It has six parameters with validation, and commands a velocity for each scan."""
     start(page, "robot_navigator")
     listed = page.ask(f"ros2 param list {NAVIGATOR}").stdout.split()
@@ -73,18 +73,18 @@ def the_robot_has_all_of_it(page: Page, row: Row) -> None:
 
 
 @row(315, own=True)
-def scans_are_evaluated_by_the_parameters(page: Page, row: Row) -> None:
+def check_scans_are_evaluated_by_the_parameters(page: Page, row: Row) -> None:
     """The distance of an obstacle, and the weakest return that counts, are parameters."""
     start(page, "robot_navigator")
     assert [each.linear > 0.0 for each in answers(page, 0.8, 0.4)] == [True, False]
-    put(page, "safety_distance", "1.0")
+    set_parameter(page, "safety_distance", "1.0")
     assert answer(page, 0.8).linear == 0.0
-    put(page, "detection_threshold", "200")
+    set_parameter(page, "detection_threshold", "200")
     assert [answer(page, NEAR, intensity=each).linear for each in (210.0, 190.0)] == [0.0, 1.0]
 
 
 @row(316, own=True)
-def velocities_are_commanded(page: Page, row: Row) -> None:
+def check_velocities_are_commanded(page: Page, row: Row) -> None:
     """At full speed if the way is free; otherwise it turns on the spot at the full turn rate."""
     start(page, "robot_navigator", "--ros-args", "-p", "max_speed:=0.7", "-p", "turn_rate:=0.6")
     free, near = answers(page, FREE, NEAR)
@@ -93,25 +93,25 @@ def velocities_are_commanded(page: Page, row: Row) -> None:
 
 
 @row(301, 331, 344, own=True, alike=True)
-def each_change_takes_effect_at_once(page: Page, row: Row) -> None:
+def check_each_change_takes_effect_at_once(page: Page, row: Row) -> None:
     """The robot behaves differently at once, without a restart."""
     started = start(page, "robot_navigator")
     assert answer(page, FREE).linear == 1.0
-    put(page, "max_speed", "2.5")
+    set_parameter(page, "max_speed", "2.5")
     assert answer(page, FREE).linear == 2.5
-    put(page, "turn_rate", "0.25")
+    set_parameter(page, "turn_rate", "0.25")
     assert abs(answer(page, NEAR).angular) == 0.25
-    put(page, "safety_distance", "0.15")
+    set_parameter(page, "safety_distance", "0.15")
     assert answer(page, NEAR).linear > 0.0
-    put(page, "safety_distance", "0.5")
-    put(page, "detection_threshold", "255")
+    set_parameter(page, "safety_distance", "0.5")
+    set_parameter(page, "detection_threshold", "255")
     assert answer(page, NEAR, intensity=254.0).linear > 0.0
-    put(page, "enable_safety", "False")
+    set_parameter(page, "enable_safety", "False")
     assert answer(page, NEAR).linear == 2.5
-    put(page, "robot_name", "Ada")
+    set_parameter(page, "robot_name", "Ada")
     page.run(1.1)
     assert logs(started)[-1].message == "[Ada] ⚡ PERFORMANCE | Speed: 2.5 m/s"
-    assert (started.exit, introductions(started)) == (None, 1)
+    assert (started.exit, count_introductions(started)) == (None, 1)
 
 
 CHANGES = {
@@ -126,11 +126,11 @@ STAMP = re.compile(r"\[(\d{10}\.\d{9})\] \[robot_navigator\]: (.*)$", re.MULTILI
 
 
 @row(302, 332, own=True, alike=True)
-def each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
+def check_each_change_is_logged_with_its_time(page: Page, row: Row) -> None:
     """Each change is logged once, and not at all if refused; the robot gets a change every 1.5 s."""
     started = start(page, "robot_navigator")
     for name, (value, _) in CHANGES.items():
-        put(page, name, value)
+        set_parameter(page, name, value)
         page.run(1.5)
     assert page.ask(f"ros2 param set {NAVIGATOR} max_speed 9.0").stderr
     lines = [(float(stamp), text) for stamp, text in STAMP.findall(started.stderr)]
@@ -146,19 +146,19 @@ AT_START = {"enable_stamped_cmd_vel": "True", "model": "turtlebot4"}
 
 
 @row(342, own=True, slow=True)
-def each_parameter_can_be_set(page: Page, row: Row) -> None:
+def check_each_parameter_can_be_set(page: Page, row: Row) -> None:
     """Each parameter is set to a value that it does not have yet."""
     read_only = {**AT_START, "stop_file": str(page.scratch / "stops.json")}
     for name in NODES:
         program = start(page, name)
-        values = dict(flat(parameters(page, name)))
+        values = dict(flatten(parameters(page, name)))
         changeable = sorted(values.keys() - {*FIXED, *read_only})
-        wanted = {key: another(page, name, key, values[key]) for key in changeable}
+        wanted = {key: different_value(page, name, key, values[key]) for key in changeable}
         for key, value in wanted.items():
             text = yaml.safe_dump(value, default_flow_style=True).splitlines()[0]
             output = page.ask(f'ros2 param set /{name} {key} "{text}"')
             assert output.stdout == "Set parameter successful\n", (key, output.stderr)
-        assert dict(flat(parameters(page, name))) == {**values, **wanted}
+        assert dict(flatten(parameters(page, name))) == {**values, **wanted}
         page.stop(program)
         if at_start := {key: value for key, value in read_only.items() if key in values}:
             words = [word for key, value in at_start.items() for word in ("-p", f"{key}:={value}")]
@@ -172,7 +172,7 @@ def parameters(page: Page, node: str) -> dict[str, Any]:
     return yaml.safe_load(page.ask(f"ros2 param dump /{node}").stdout)[f"/{node}"]["ros__parameters"]
 
 
-def another(page: Page, node: str, name: str, value: Any) -> Any:
+def different_value(page: Page, node: str, name: str, value: Any) -> Any:
     """A different valid value of the parameter."""
     if isinstance(value, bool):
         return not value

@@ -31,12 +31,12 @@ class DrivingStyle(NamedTuple):
     """The fastest command (m/s) in the first 2 s in the profile's own world."""
 
 
-_manners: dict[str, DrivingStyle] = {}
+_driving_styles: dict[str, DrivingStyle] = {}
 
 
-def manner(page: Page, name: str) -> DrivingStyle:
+def driving_style(page: Page, name: str) -> DrivingStyle:
     """How the robot drives with a profile's file; measured once for all rows."""
-    if name not in _manners:
+    if name not in _driving_styles:
         program = start(page, "robot_navigator", "--ros-args", "--params-file", str(profile(page, name)[0]))
         free, *near = answers(page, FREE, *STEPS)
         page.stop(program)
@@ -45,51 +45,53 @@ def manner(page: Page, name: str) -> DrivingStyle:
         echo = page.ask("ros2 topic echo /cmd_vel --csv", stop_after=2.0)
         page.stop(launch)
         driven = max(float(line.split(",")[0]) for line in echo.stdout.splitlines())
-        _manners[name] = DrivingStyle(free.linear, max(stopped, default=0.0), driven)
-    return _manners[name]
+        _driving_styles[name] = DrivingStyle(free.linear, max(stopped, default=0.0), driven)
+    return _driving_styles[name]
 
 
-def faster(page: Page, one: str, other: str) -> bool:
+def is_faster(page: Page, one: str, other: str) -> bool:
     """Whether one profile is faster than another, in open space and in its own world."""
-    quick, slow = manner(page, one), manner(page, other)
+    quick, slow = driving_style(page, one), driving_style(page, other)
     return quick.speed > slow.speed and quick.driven > slow.driven
 
 
 @row(265, 305, own=True, alike=True)
-def outdoors_is_faster_and_wider(page: Page, row: Row) -> None:
-    assert faster(page, "outdoor", "indoor")
-    assert faster(page, "competition", "outdoor")
-    assert manner(page, "outdoor").distance > manner(page, "indoor").distance
+def check_outdoor_is_faster_and_keeps_more_distance(page: Page, row: Row) -> None:
+    assert is_faster(page, "outdoor", "indoor")
+    assert is_faster(page, "competition", "outdoor")
+    assert driving_style(page, "outdoor").distance > driving_style(page, "indoor").distance
 
 
 @row(266, 306, own=True, alike=True)
-def the_warehouse_lies_between(page: Page, row: Row) -> None:
-    assert faster(page, "warehouse", "indoor")
-    assert faster(page, "competition", "warehouse")
-    assert manner(page, "competition").distance < manner(page, "warehouse").distance
-    assert manner(page, "warehouse").distance < manner(page, "outdoor").distance
+def check_warehouse_is_between_the_others(page: Page, row: Row) -> None:
+    assert is_faster(page, "warehouse", "indoor")
+    assert is_faster(page, "competition", "warehouse")
+    assert driving_style(page, "competition").distance < driving_style(page, "warehouse").distance
+    assert driving_style(page, "warehouse").distance < driving_style(page, "outdoor").distance
 
 
 @row(267, 307, own=True, alike=True)
-def competition_is_fastest_with_least_distance(page: Page, row: Row) -> None:
+def check_competition_is_fastest_with_least_distance(page: Page, row: Row) -> None:
     others = ("indoor", "outdoor", "warehouse")
-    assert all(faster(page, "competition", each) for each in others)
-    assert 0.0 < manner(page, "competition").distance < min(manner(page, each).distance for each in others)
+    assert all(is_faster(page, "competition", each) for each in others)
+    assert (
+        0.0 < driving_style(page, "competition").distance < min(driving_style(page, each).distance for each in others)
+    )
 
 
 @row(304, own=True)
-def indoors_is_slowest_and_stops_early(page: Page, row: Row) -> None:
+def check_indoor_is_slowest_and_stops_early(page: Page, row: Row) -> None:
     """It keeps the most distance for its speed."""
-    assert all(faster(page, each, "indoor") for each in PROFILES[1:])
-    caution = {name: manner(page, name).distance / manner(page, name).speed for name in PROFILES}
+    assert all(is_faster(page, each, "indoor") for each in PROFILES[1:])
+    caution = {name: driving_style(page, name).distance / driving_style(page, name).speed for name in PROFILES}
     assert max(caution, key=lambda name: caution[name]) == "indoor"
 
 
 @row(346, own=True)
-def each_profile_drives_otherwise(page: Page, row: Row) -> None:
+def check_each_profile_drives_differently(page: Page, row: Row) -> None:
     """In open space, and in its world."""
-    manners = [manner(page, each) for each in PROFILES]
-    assert len({each.speed for each in manners}) == len({each.driven for each in manners}) == len(PROFILES)
+    styles = [driving_style(page, each) for each in PROFILES]
+    assert len({each.speed for each in styles}) == len({each.driven for each in styles}) == len(PROFILES)
 
 
 CUSTOM: dict[str, dict[str, Any]] = {
@@ -103,13 +105,13 @@ CUSTOM: dict[str, dict[str, Any]] = {
 """Values for each node that no profile has and that are not defaults."""
 
 
-def custom_file(page: Page) -> Path:
+def write_custom_file(page: Page) -> Path:
     file = page.scratch / "custom.yaml"
     file.write_text(yaml.safe_dump({node: {"ros__parameters": values} for node, values in CUSTOM.items()}), "utf-8")
     return file
 
 
-def as_written(page: Page, sections: dict[str, dict[str, Any]]) -> None:
+def assert_loaded(page: Page, sections: dict[str, dict[str, Any]]) -> None:
     """Every node has these values."""
     message = {
         node: {name: yaml.safe_load(page.value(f"/{node}", name)) for name in each} for node, each in sections.items()
@@ -122,20 +124,20 @@ def system(page: Page, words: str) -> Program:
 
 
 @row(299, 335, own=True, alike=True)
-def all_nodes_load_the_one_file(page: Page, row: Row) -> None:
+def check_all_nodes_load_one_file(page: Page, row: Row) -> None:
     assert set(CUSTOM) == set(NODES)
-    system(page, f"config_file:={custom_file(page)}")
-    as_written(page, CUSTOM)
+    system(page, f"config_file:={write_custom_file(page)}")
+    assert_loaded(page, CUSTOM)
 
 
 @row(334, own=True)
-def each_environment_has_its_configuration(page: Page, row: Row) -> None:
+def check_each_environment_has_its_configuration(page: Page, row: Row) -> None:
     """Settings and world, selected by the argument of the environment launch file."""
     for environment in ("warehouse", "competition"):
         launch = start_launch(page, f"ros2 launch intelligent_robot environment_launch.py environment:={environment}")
         sections = {node: each["ros__parameters"] for node, each in profile(page, environment)[1].items()}
         picked = ("robot_name", "max_speed", "warning_distance", "world")
-        as_written(page, {
+        assert_loaded(page, {
             node: {name: values[name] for name in picked if name in values}
             for node, values in sections.items() if node in ("robot_navigator", "safety_monitor", "simulator")
         })  # fmt: skip
@@ -143,13 +145,13 @@ def each_environment_has_its_configuration(page: Page, row: Row) -> None:
 
 
 @row(336, own=True)
-def arguments_change_the_launch(page: Page, row: Row) -> None:
+def check_arguments_change_the_launch(page: Page, row: Row) -> None:
     """Profile, seed, world and navigator; wrong values are refused with the choices."""
     shown = page.ask(f"{LAUNCH} --show-args").stdout
     assert all(f"    '{each}':\n" in shown for each in ("profile", "config_file", "seed", "world", "navigator"))
     launch = system(page, "profile:=outdoor seed:=23 world:=warehouse navigator:=false use_sim_time:=true")
     assert "/robot_navigator" not in nodes(page)
-    as_written(page, {
+    assert_loaded(page, {
         "simulator": {"seed": 23, "world": "warehouse"},
         "safety_monitor": {"warning_distance": 1.2, "use_sim_time": True},
     })  # fmt: skip

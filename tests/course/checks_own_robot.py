@@ -40,7 +40,7 @@ def profile(page: Page, name: str) -> tuple[Path, dict[str, Any]]:
 
 
 @row(289, 290, 291, 292, 293, 294, own=True)
-def the_robot_has_the_parameter(page: Page, row: Row) -> None:
+def check_robot_has_the_parameter(page: Page, row: Row) -> None:
     name, kind, limits = re.match(r"(\w+) \((\w+)\): [^(]*(?:\(([^)]*)\))?", row.text).groups()  # type: ignore[union-attr]
     start(page, "robot_navigator")
     described = page.ask(f"ros2 param describe {NAVIGATOR} {name}").stdout
@@ -51,7 +51,7 @@ def the_robot_has_the_parameter(page: Page, row: Row) -> None:
 
 
 @row(313, 329, own=True, alike=True)
-def each_parameter_has_a_description(page: Page, row: Row) -> None:
+def check_each_parameter_has_a_description(page: Page, row: Row) -> None:
     for name in NODES:
         program = start(page, name)
         names = [each for each in page.ask(f"ros2 param list /{name}").stdout.split() if each not in FIXED]
@@ -61,7 +61,7 @@ def each_parameter_has_a_description(page: Page, row: Row) -> None:
 
 
 @row(300, 303, 314, 330, 345, own=True, alike=True)
-def wrong_values_are_refused_with_the_reason(page: Page, row: Row) -> None:
+def check_wrong_values_are_refused_with_the_reason(page: Page, row: Row) -> None:
     start(page, "robot_navigator")
     for name, value in (("max_speed", "10.0"), ("turn_rate", "0.05"), ("robot_name", "''"), ("max_speed", "fast")):
         before = page.value(NAVIGATOR, name)
@@ -71,38 +71,38 @@ def wrong_values_are_refused_with_the_reason(page: Page, row: Row) -> None:
 
 @row(317, own=True)
 @row(318, 319, 320, own=True, slow=True)
-def the_profile_loads(page: Page, row: Row) -> None:
+def check_profile_of_the_row_loads(page: Page, row: Row) -> None:
     name = re.search(r"(\w+)_config.yaml", row.text)
     assert name is not None
-    profile_loads(page, name[1])
+    check_profile_loads(page, name[1])
 
 
 @row(343, own=True, slow=True)
-def each_profile_loads(page: Page, row: Row) -> None:
+def check_each_profile_loads(page: Page, row: Row) -> None:
     for name in ("indoor", "outdoor", "warehouse", "competition"):
-        profile_loads(page, name)
+        check_profile_loads(page, name)
 
 
 _loaded: set[str] = set()
 """The profiles that earlier rows of this run have loaded."""
 
 
-def profile_loads(page: Page, name: str) -> None:
+def check_profile_loads(page: Page, name: str) -> None:
     if name in _loaded:
         return
     file, sections = profile(page, name)
     for node, section in sections.items():
         program = start(page, node, "--ros-args", "--params-file", str(file))
         dumped = yaml.safe_load(page.ask(f"ros2 param dump /{node}").stdout)[f"/{node}"]["ros__parameters"]
-        expected = dict(flat(section["ros__parameters"]))
-        assert {key: value for key, value in flat(dumped) if key in expected} == expected
+        expected = dict(flatten(section["ros__parameters"]))
+        assert {key: value for key, value in flatten(dumped) if key in expected} == expected
         page.stop(program)
     _loaded.add(name)
 
 
-def flat(tree: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
+def flatten(tree: dict[str, Any], prefix: str = "") -> Iterator[tuple[str, Any]]:
     for key, value in tree.items():
         if isinstance(value, dict):
-            yield from flat(value, f"{prefix}{key}.")
+            yield from flatten(value, f"{prefix}{key}.")
         else:
             yield f"{prefix}{key}", value

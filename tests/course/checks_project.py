@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from course.checks_parameters import starts
+from course.checks_parameters import run_row
 from course.page import Page, logs
 from course.rows import COURSE, Row
 from course.table import row
@@ -30,7 +30,7 @@ def logged(program: Program) -> list[str]:
 
 
 @row(224, 309)
-def a_package_is_created(page: Page, row: Row) -> None:
+def check_package_is_created(page: Page, row: Row) -> None:
     answer = page.ask(f"{row.command} --destination-directory {page.scratch}")
     assert (answer.exit, answer.stderr) == (0, "")
     folder = page.scratch / "intelligent_robot"
@@ -48,7 +48,7 @@ def a_package_is_created(page: Page, row: Row) -> None:
 
 
 @row(231, 232, 233, 234, 235)
-def the_setup_file_is_read(page: Page, row: Row) -> None:
+def check_setup_file_is_read(page: Page, row: Row) -> None:
     names = page.ask("ros2 pkg executables intelligent_robot").stdout.split()[1::2]
     assert names == sorted(["robot_node", "sensor_node", "safety_node", "telemetry_node"])
     if row.number == 231:
@@ -61,7 +61,7 @@ def the_setup_file_is_read(page: Page, row: Row) -> None:
 
 
 @row(236)
-def the_robot_runs_as_printed(page: Page, row: Row) -> None:
+def check_project_robot_runs_as_printed(page: Page, row: Row) -> None:
     """After Ctrl-C its `finally` shuts down a second time, as on real ROS 2 (N27)."""
     started = robot(page)
     info = page.ask(f"ros2 node info {NODE}").stdout
@@ -72,7 +72,7 @@ def the_robot_runs_as_printed(page: Page, row: Row) -> None:
 
 
 @row(237, 238, 239, 240, 241, 242)
-def a_parameter_has_default_and_description(page: Page, row: Row) -> None:
+def check_parameter_has_default_and_description(page: Page, row: Row) -> None:
     robot(page)
     name = row.command
     description = re.search(r'description "(.*)"', row.text)
@@ -82,7 +82,7 @@ def a_parameter_has_default_and_description(page: Page, row: Row) -> None:
 
 
 @row(243)
-def the_robot_introduces_itself(page: Page, row: Row) -> None:
+def check_robot_introduces_itself(page: Page, row: Row) -> None:
     assert logged(robot(page)) == row.quoted
 
 
@@ -96,7 +96,7 @@ CHANGES = {
 
 
 @row(244, 246, 248, 250, 252)
-def a_good_value_is_taken(page: Page, row: Row) -> None:
+def check_good_value_is_accepted(page: Page, row: Row) -> None:
     started = robot(page)
     name = re.match(r"\w+", row.text)
     assert name is not None
@@ -107,7 +107,7 @@ def a_good_value_is_taken(page: Page, row: Row) -> None:
 
 
 @row(245, 247, 249, 251, 253)
-def a_bad_value_is_refused(page: Page, row: Row) -> None:
+def check_bad_value_is_refused(page: Page, row: Row) -> None:
     robot(page)
     name = re.match(r"\w+", row.text)
     assert name is not None
@@ -118,7 +118,7 @@ def a_bad_value_is_refused(page: Page, row: Row) -> None:
 
 
 @row(254)
-def safety_is_reported(page: Page, row: Row) -> None:
+def check_safety_is_reported(page: Page, row: Row) -> None:
     started = robot(page)
     for value, text in zip(("true", "false"), row.quoted, strict=True):
         page.ask(f"ros2 param set {NODE} enable_safety {value}")
@@ -134,7 +134,7 @@ def response_to_scan(page: Page, *ranges: float) -> list[str]:
 
 
 @row(255)
-def it_turns_before_an_obstacle(page: Page, row: Row) -> None:
+def check_robot_turns_before_an_obstacle(page: Page, row: Row) -> None:
     started = robot(page)
     assert response_to_scan(page, 3.0, 0.25) == ["0.0", "1.0"]
     text = row.quoted[-1].replace("<d, 2 decimals>", "0.25")
@@ -142,20 +142,20 @@ def it_turns_before_an_obstacle(page: Page, row: Row) -> None:
 
 
 @row(256)
-def it_drives_where_nothing_is_near(page: Page, row: Row) -> None:
+def check_robot_drives_without_an_obstacle(page: Page, row: Row) -> None:
     robot(page)
     assert response_to_scan(page, 3.0, 2.0) == ["1.0", "0.0"]
 
 
 @row(257)
-def ranges_of_zero_are_ignored(page: Page, row: Row) -> None:
+def check_ranges_of_zero_are_ignored(page: Page, row: Row) -> None:
     robot(page)
     assert response_to_scan(page, 0.0, 2.0) == ["1.0", "0.0"]
     assert response_to_scan(page, 0.0, -1.0) == []
 
 
 @row(258)
-def its_status_is_reported_each_second(page: Page, row: Row) -> None:
+def check_status_is_reported_each_second(page: Page, row: Row) -> None:
     started = robot(page, 2.5)
     safe = row.quoted[0].replace("<robot_name>", "IntelligentRobot").replace("<v>", "1.0").replace("\\\\", "")
     assert logged(started).count(safe) == 2
@@ -165,8 +165,8 @@ def its_status_is_reported_each_second(page: Page, row: Row) -> None:
 
 
 @row(262, 263)
-def the_command_starts_the_robot(page: Page, row: Row) -> None:
-    started = starts(page, row.number)
+def check_command_starts_the_robot(page: Page, row: Row) -> None:
+    started = run_row(page, row.number)
     assert page.ask("ros2 node list").stdout == f"{NODE}\n"
     name = "Explorer" if row.number == 263 else "IntelligentRobot"
     assert logged(started)[0].endswith(f"{name} initialized!")
@@ -185,7 +185,7 @@ INDOOR = {
 
 
 @row(264)
-def the_indoor_file_loads(page: Page, row: Row) -> None:
+def check_indoor_file_loads(page: Page, row: Row) -> None:
     file = COURSE / "config" / "indoor_config.yaml"
     assert SECTION.findall(file.read_text("utf-8")) == list(INDOOR)
     for name, values in INDOOR.items():
@@ -194,18 +194,18 @@ def the_indoor_file_loads(page: Page, row: Row) -> None:
 
 
 @row(280)
-def the_robots_parameters_are_listed(page: Page, row: Row) -> None:
-    starts(page, 262)
+def check_parameters_of_the_robot_are_listed(page: Page, row: Row) -> None:
+    run_row(page, 262)
     assert set(DEFAULTS) <= set(page.ask(row.command).stdout.split())
 
 
 @row(281)
-def a_valid_speed_is_set(page: Page, row: Row) -> None:
-    starts(page, 262)
+def check_valid_speed_is_set(page: Page, row: Row) -> None:
+    run_row(page, 262)
     assert page.ask(row.command).stdout == "Set parameter successful\n"
 
 
 @row(282)
-def a_wild_speed_is_refused(page: Page, row: Row) -> None:
-    starts(page, 262)
+def check_excessive_speed_is_refused(page: Page, row: Row) -> None:
+    run_row(page, 262)
     assert page.ask(row.command).stderr == "Setting parameter failed: Speed must be 0.1-5.0, got 10.0\n"

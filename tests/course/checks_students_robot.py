@@ -40,13 +40,13 @@ def drive_for_a_minute(folder: Path, config: Path) -> dict[str, Any]:
 
 
 @row(391)
-def the_students_nodes_drive(page: Page, row: Row) -> None:
+def check_nodes_of_the_student_drive(page: Page, row: Row) -> None:
     folder = make_workspace(page.scratch / "ws", complete=True)
     assert drive(folder, folder / "src" / "intelligent_robot" / "config" / "indoor_config.yaml")["distance"] > 10.0
 
 
 @row(392, slow=True)
-def each_configuration_drives_otherwise(page: Page, row: Row) -> None:
+def check_each_configuration_drives_differently(page: Page, row: Row) -> None:
     folder = make_workspace(page.scratch / "ws", complete=True)
     config = folder / "src" / "intelligent_robot" / "config"
     printed = (config / "indoor_config.yaml").read_text("utf-8")
@@ -60,7 +60,7 @@ def each_configuration_drives_otherwise(page: Page, row: Row) -> None:
 
 
 @row(337)
-def the_package_has_a_readme(page: Page, row: Row) -> None:
+def check_package_has_a_readme(page: Page, row: Row) -> None:
     assert page.bot_console("export", str(page.scratch)).exit == 0
     text = (page.scratch / "bot_console_robot" / "README.md").read_text("utf-8")
     assert "ros2 launch bot_console_robot robot_system.launch.py" in text

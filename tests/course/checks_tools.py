@@ -2,14 +2,14 @@
 
 from __future__ import annotations
 
-from course.checks_parameters import starts
+from course.checks_parameters import run_row
 from course.page import Page, logs, make_workspace
 from course.rows import COURSE, Row
 from course.table import row
 
 
 @row(144)
-def the_publisher_runs_as_printed(page: Page, row: Row) -> None:
+def check_publisher_runs_as_printed(page: Page, row: Row) -> None:
     page.node_file("data_publisher.py", seconds=0.0)
     values = page.ask("ros2 topic echo /robot_speed --field data", stop_after=0.55).stdout.replace("---", "").split()
     assert [round(float(each), 4) for each in values[:3]] == [2.0, 2.0998, 2.1987]
@@ -17,14 +17,14 @@ def the_publisher_runs_as_printed(page: Page, row: Row) -> None:
 
 
 @row(171)
-def a_wild_speed_is_an_error(page: Page, row: Row) -> None:
-    robot = starts(page, 133)
+def check_excessive_speed_is_an_error(page: Page, row: Row) -> None:
+    robot = run_row(page, 133)
     assert page.ask(row.command).stderr.startswith("Setting parameter failed")
     assert logs(robot)[-1] == ("ERROR", "simple_robot", "Speed must be between 0.1 and 5.0, got 100.0")
 
 
 @row(361, own=True)
-def the_package_that_is_not_there_is_reported(page: Page, row: Row) -> None:
+def check_missing_package_is_reported(page: Page, row: Row) -> None:
     """`ros2 run` prints only that line, `ros2 launch` adds more (N25); once the package exists, both lines start it."""
     stated, commands = row.command.partition(": ")[2], (page.row(13).command, page.row(65).command)
     ran, launched = (page.ask(each) for each in commands)
@@ -36,7 +36,7 @@ def the_package_that_is_not_there_is_reported(page: Page, row: Row) -> None:
 
 
 @row(365)
-def the_package_is_listed(page: Page, row: Row) -> None:
+def check_package_is_listed(page: Page, row: Row) -> None:
     command, _, wanted = row.command.partition(" | grep ")
     assert wanted in page.ask(command).stdout.split()
 
@@ -48,7 +48,7 @@ node.declare_parameter('param1', 'default')
 rclpy.spin(node)"""
 
 
-def loads(page: Page, keyword: str) -> str:
+def load_file(page: Page, keyword: str) -> str:
     file = page.scratch / "page.yaml"
     file.write_text(f"node_name:\n  {keyword}:\n    param1: value1\n", "utf-8")
     program = page.python(FILE_NODE.format(file=str(file)))
@@ -56,17 +56,17 @@ def loads(page: Page, keyword: str) -> str:
 
 
 @row(366)
-def the_right_form_loads(page: Page, row: Row) -> None:
-    assert loads(page, row.quoted[0].rstrip(":")) == "value1"
+def check_right_form_loads(page: Page, row: Row) -> None:
+    assert load_file(page, row.quoted[0].rstrip(":")) == "value1"
 
 
 @row(367)
-def the_wrong_form_is_refused(page: Page, row: Row) -> None:
-    assert "Cannot have a value before ros__parameters at line 3" in loads(page, row.quoted[0].rstrip(":"))
+def check_wrong_form_is_refused(page: Page, row: Row) -> None:
+    assert "Cannot have a value before ros__parameters at line 3" in load_file(page, row.quoted[0].rstrip(":"))
 
 
 @row(81, 368, alike=True)
-def the_share_folder_has_the_config(page: Page, row: Row) -> None:
+def check_share_folder_has_the_config(page: Page, row: Row) -> None:
     """The package of these tests has that very line in its `setup.py`."""
     share = page.ask("ros2 pkg prefix --share my_package").stdout.strip()
     found = page.python(f"import os; print(sorted(os.listdir(os.path.join({share!r}, 'config'))))").stdout
@@ -119,37 +119,37 @@ def change(page: Page, left_out: int) -> tuple[str, str, str]:
 
 
 @row(370)
-def what_is_not_declared_cannot_be_changed(page: Page, row: Row) -> None:
+def check_undeclared_parameter_cannot_be_set(page: Page, row: Row) -> None:
     before, answer, after = change(page, row.number)
     assert "Setting parameter failed" in answer
     assert (before, after) == ("1.0", "1.0")
 
 
 @row(371, 372, 373)
-def without_this_the_change_is_taken_and_has_no_effect(page: Page, row: Row) -> None:
+def check_change_has_no_effect_without_the_line(page: Page, row: Row) -> None:
     assert change(page, row.number) == ("1.0", "Set parameter successful\n", "1.0")
     assert page.value("/robot", "speed") == "2.5"
 
 
 @row(374)
-def with_all_four_the_change_takes_effect(page: Page, row: Row) -> None:
+def check_change_takes_effect_with_all_four_lines(page: Page, row: Row) -> None:
     assert change(page, 0) == ("1.0", "Set parameter successful\n", "2.5")
 
 
 @row(375)
-def the_distribution_is_named(page: Page, row: Row) -> None:
+def check_distribution_is_named(page: Page, row: Row) -> None:
     name = row.command.removeprefix("echo $")
     assert page.python(f"import os; print(os.environ[{name!r}])").stdout == "jazzy\n"
 
 
 @row(376)
-def nodes_are_listed(page: Page, row: Row) -> None:
-    starts(page, 13)
+def check_nodes_are_listed(page: Page, row: Row) -> None:
+    run_row(page, 13)
     assert page.ask(row.command).stdout == "/simple_robot\n"
 
 
 @row(377)
-def parameters_are_listed(page: Page, row: Row) -> None:
+def check_parameters_are_listed(page: Page, row: Row) -> None:
     assert page.ask(row.command).stderr == "Node not found\n"
     page.python("import rclpy\nrclpy.init()\nrclpy.spin(rclpy.create_node('node_name'))")
     assert page.ask(row.command).stdout.split() == ["start_type_description_service", "use_sim_time"]

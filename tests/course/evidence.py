@@ -63,7 +63,7 @@ SHOWN: dict[int, str] = {number: test for test, numbers in _SHOWN for number in 
 """The ids of tests, as pytest writes them, by row number."""
 
 
-def is_there(test: str) -> bool:
+def has_test(test: str) -> bool:
     """Whether a file contains the test of that id, neither left to the soak run nor always skipped."""
     path, _, name = test.partition("::")
     return name in _tests(ROOT / path)

@@ -7,7 +7,7 @@ import os
 from pathlib import Path
 
 import pytest
-from course.evidence import SHOWN, is_there
+from course.evidence import SHOWN, has_test
 from course.page import make_workspace, page
 from course.rows import Row, rows
 from course.table import ALIKE, CHECKS, COMPLETE, OWN, SLOW, Check, reason
@@ -44,7 +44,7 @@ def test_row_of_the_course_holds(
 ) -> None:
     if row.number in SHOWN:
         request.getfixturevalue("record_property")("shown_by", SHOWN[row.number])
-        assert is_there(SHOWN[row.number])
+        assert has_test(SHOWN[row.number])
         return
     check = CHECKS.get(row.number)
     if check is None:

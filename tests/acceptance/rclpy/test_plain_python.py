@@ -86,7 +86,7 @@ def soak_after_first(values: Sequence[Any], *marks: pytest.MarkDecorator) -> lis
     return [pytest.param(each, marks=pytest.mark.soak if n else marks) for n, each in enumerate(values)]
 
 
-CASTS = [
+COMMAND_GROUPS = [
     [CommandLine("listener", "I heard"), CommandLine("talker", "Publishing")],
     [CommandLine("add_server", "Incoming"), CommandLine("add_client async 2 3")],
     [CommandLine("add_server", "Incoming"), CommandLine("client_in_callback")],
@@ -175,27 +175,27 @@ class RunningProgram:
 
 
 def play(
-    cast: Sequence[CommandLine], start: Sequence[str], env: Mapping[str, str], cwd: Path
+    commands: Sequence[CommandLine], start: Sequence[str], env: Mapping[str, str], cwd: Path
 ) -> list[dict[str, object]]:
-    """Run the programs of a cast together."""
+    """Run the commands together."""
     running: list[RunningProgram] = []
     try:
-        for each in cast:
+        for each in commands:
             words = shlex.split(each.words)
             files = [path for path in (PROGRAMS / f"{words[0]}.py", COURSE / words[0]) if path.is_file()]
             file = [str(files[0])] if files else [words[0]]
             running.append(RunningProgram([*start, *file, *words[1:]], env, cwd, each.until or OTHERS_END))
-        for program, each in zip(running, cast, strict=True):
+        for program, each in zip(running, commands, strict=True):
             if each.until not in ("", OTHERS_END):
                 program.await_text()
         for interrupted in (False, True):
-            for program, each in zip(running, cast, strict=True):
+            for program, each in zip(running, commands, strict=True):
                 if bool(each.until) is interrupted:
                     program.end(interrupted=interrupted)
     finally:
         for each in running:
             each._process.kill()
-    in_order = not any(each.words.startswith(IN_ANY_ORDER) for each in cast)
+    in_order = not any(each.words.startswith(IN_ANY_ORDER) for each in commands)
     return [each.shown(in_order) for each in running]
 
 
@@ -217,40 +217,42 @@ def test_uncaught_exception_is_shown_alike(home: Path, tmp_path: Path) -> None:
         assert (plain.stderr, plain.returncode) == (run.stderr, run.returncode)
 
 
-def compare(cast: Sequence[CommandLine], home: Path, tmp_path: Path) -> None:
+def compare(commands: Sequence[CommandLine], home: Path, tmp_path: Path) -> None:
     (tmp_path / "a").mkdir(mode=0o700)
     (tmp_path / "b").mkdir(mode=0o700)
     ours = {**environment(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "a"), "ROS_DOMAIN_ID": "0"}
     plain = {**set_up(home), "BOT_CONSOLE_SOCKET_DIR": str(tmp_path / "b"), "ROS_DOMAIN_ID": "0"}
     # Otherwise Python buffers what is printed to a pipe until the program ends, and nobody sees when to interrupt it.
     ours["PYTHONUNBUFFERED"] = plain["PYTHONUNBUFFERED"] = "1"
-    shown = play(cast, ["env", "bot-console", "run"], ours, tmp_path)
-    assert play(cast, [str(PYTHON)], plain, tmp_path) == shown
+    shown = play(commands, ["env", "bot-console", "run"], ours, tmp_path)
+    assert play(commands, [str(PYTHON)], plain, tmp_path) == shown
     assert any(each["stdout"] or each["stderr"] for each in shown)
 
 
 @pytest.mark.parametrize(
-    "cast",
-    soak_after_first(CASTS),
-    ids=lambda cast: cast[0].words.split()[0],
+    "commands",
+    soak_after_first(COMMAND_GROUPS),
+    ids=lambda commands: commands[0].words.split()[0],
 )
-def test_programs_print_the_same_under_plain_python(cast: list[CommandLine], home: Path, tmp_path: Path) -> None:
-    compare(cast, home, tmp_path)
+def test_programs_print_the_same_under_plain_python(commands: list[CommandLine], home: Path, tmp_path: Path) -> None:
+    compare(commands, home, tmp_path)
 
 
 @pytest.mark.skipif(not COURSE.is_dir(), reason="BOT_CONSOLE_COURSE names no course")
-@pytest.mark.parametrize("cast", soak_after_first(COURSE_NODES, pytest.mark.slow), ids=lambda cast: cast[0].words)
+@pytest.mark.parametrize(
+    "commands", soak_after_first(COURSE_NODES, pytest.mark.slow), ids=lambda commands: commands[0].words
+)
 def test_listings_of_the_course_print_the_same_under_plain_python(
-    cast: list[CommandLine], home: Path, tmp_path: Path
+    commands: list[CommandLine], home: Path, tmp_path: Path
 ) -> None:
     """The other two, `dynamic_robot.py` and `parameter_client.py`, start nothing, and `bot-console run` says so."""
-    compare(cast, home, tmp_path)
+    compare(commands, home, tmp_path)
 
 
 @pytest.mark.soak
-@pytest.mark.parametrize("cast", DEMOS, ids=["demo_nodes", "minimal", "services"])
-def test_demo_nodes_print_the_same_under_plain_python(cast: list[CommandLine], home: Path, tmp_path: Path) -> None:
-    compare(cast, home, tmp_path)
+@pytest.mark.parametrize("commands", DEMOS, ids=["demo_nodes", "minimal", "services"])
+def test_demo_nodes_print_the_same_under_plain_python(commands: list[CommandLine], home: Path, tmp_path: Path) -> None:
+    compare(commands, home, tmp_path)
 
 
 @pytest.mark.soak
