@@ -159,7 +159,7 @@ def spin(node: Node, executor: Executor | None = None) -> None:
     try:
         was_added = executor.add_node(node)
         report_unused_overrides(executor.context)
-        with executor._entered():  # pyright: ignore[reportPrivateUsage] -- one library
+        with executor._count_spinning():  # pyright: ignore[reportPrivateUsage] -- one library
             while executor.context.ok():
                 executor.spin_once()
     finally:
