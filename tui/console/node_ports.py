@@ -129,11 +129,11 @@ class NodePorts:
             capabilities=self._capabilities,
             problem=self.problem,
         )
-        if not all(_same(getattr(old, each.name), getattr(new, each.name)) for each in fields(new)):
+        if not all(_is_same(getattr(old, each.name), getattr(new, each.name)) for each in fields(new)):
             self._snapshot = replace(new, seq=old.seq + 1)
         return self._snapshot
 
 
-def _same(old: object, new: object) -> bool:
+def _is_same(old: object, new: object) -> bool:
     """Whether a part is the same object, or an equal text or number."""
     return new is old or (isinstance(new, (str, int)) and new == old)

@@ -119,7 +119,7 @@ class RosConsole(NodePorts):
             if self._closed:
                 self._leave(None)
                 return
-            self.problem = f"the console's link to ROS has ended: {_placed(error)}"
+            self.problem = f"the console's link to ROS has ended: {_error_with_place(error)}"
             self.gate.close(self.problem)
             self.drive.follow_alone()
         finally:
@@ -167,12 +167,12 @@ class RosConsole(NodePorts):
         try:
             return make()
         except Exception as error:
-            self.printed(Severity.WARN, LABEL, f"{name} cannot be used: {_placed(error)}")
+            self.printed(Severity.WARN, LABEL, f"{name} cannot be used: {_error_with_place(error)}")
             return None
 
     def _report_fault(self, error: Exception) -> None:
         """Log an exception in the node that stops the robot, which keeps running; equal ones are logged once."""
-        text = f"an error in the connection to the robot, which stays up: {_placed(error)}"
+        text = f"an error in the connection to the robot, which stays up: {_error_with_place(error)}"
         if text not in self._faults:
             self._faults.add(text)
             self.printed(Severity.ERROR, LABEL, text)
@@ -222,7 +222,7 @@ class RosConsole(NodePorts):
         self.parameters.close()
 
 
-def _placed(error: Exception) -> str:
+def _error_with_place(error: Exception) -> str:
     """The error message, with the place in the source where it was raised."""
     place = traceback.extract_tb(error.__traceback__)[-1]
     return f"{error} ({place.filename}:{place.lineno})"

@@ -66,13 +66,13 @@ class SnapshotBuffer:
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save the kept messages as a new bag, and continue keeping."""
-        return in_background(lambda: self._pour(folder), "keep")
+        return in_background(lambda: self._write_bag(folder), "keep")
 
     def close(self) -> None:
         """Stop keeping messages."""
         self._closing.set()
 
-    def _pour(self, folder: str) -> Answer:
+    def _write_bag(self, folder: str) -> Answer:
         try:
             with self._lock:
                 self._turn()

@@ -31,7 +31,7 @@ class SqliteFile:
             rows = base.execute(asked).fetchall()
         times: list[int] = []
         for name, type, encoding, qos, type_hash, count, first, last in rows:
-            times += [_moment(first), _moment(last)] if count else []
+            times += [_check_stamp(first), _check_stamp(last)] if count else []
             profiles = qos_profiles(str(qos))
             self._topics.append(Topic(str(name), str(type), profiles, str(type_hash), count, str(encoding) or "cdr"))
         if times:
@@ -66,7 +66,7 @@ class SqliteFile:
         return base
 
 
-def _moment(stamp: object) -> int:
+def _check_stamp(stamp: object) -> int:
     if isinstance(stamp, int):
         return stamp
     raise ValueError(f"a message is dated {stamp!r} ns since 1970")

@@ -77,7 +77,7 @@ class BagWriter:
     def write(self, topic: str, data: bytes, received: int, sent: int) -> None:
         """Add a message (CDR), with the times (ns since the epoch) at which it was received and sent."""
         part = self.metadata.files[-1]
-        if part.count and self._full(part, received):
+        if part.count and self._is_full(part, received):
             self.split()
             part = self.metadata.files[-1]
         if self.how.compression == "message":
@@ -108,7 +108,7 @@ class BagWriter:
         self._finish()
         self.metadata.save(self.folder)
 
-    def _full(self, part: FilePart, received: int) -> bool:
+    def _is_full(self, part: FilePart, received: int) -> bool:
         seconds = (received - part.begin) / 1e9
         return 0 < self.how.max_bytes <= self._bytes or 0 < self.how.max_seconds <= seconds
 

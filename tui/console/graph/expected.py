@@ -54,7 +54,7 @@ def read_file(path: str) -> ExpectedGraph:
 def read(text: str) -> ExpectedGraph:
     """Parse the text of such a file; raises `ValueError` with a description of the error."""
     if KEYWORD in text:
-        return ExpectedGraph(topics=_of_parameters(text))
+        return ExpectedGraph(topics=_parse_parameter_file(text))
     try:
         whole: Any = yaml.safe_load(text)
     except UNREADABLE as error:
@@ -62,14 +62,14 @@ def read(text: str) -> ExpectedGraph:
     found = _mapping(whole, "the file", PARTS)
     return ExpectedGraph(
         _names(found.get("nodes"), "nodes"),
-        {_full(name): _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
+        {_absolute_name(name): _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
         _types(found.get("services"), "services"),
         _types(found.get("actions"), "actions"),
         bool(found.get("exact", False)),
     )
 
 
-def _of_parameters(text: str) -> dict[str, ExpectedTopic]:
+def _parse_parameter_file(text: str) -> dict[str, ExpectedTopic]:
     values = {name: value_at(name, place) for each in sections(text) for name, place in each.places.items()}
     found = from_parameters(values)
     if not found:
@@ -93,15 +93,15 @@ def _names(value: Any, what: str) -> frozenset[str]:
     words = cast("list[Any]", value) if isinstance(value, list) else None
     if value is not None and (words is None or not all(isinstance(each, str) for each in words)):
         raise ValueError(f"{what} should be a list of names, as in [/a, /b]")
-    return frozenset(_full(each) for each in words or ())
+    return frozenset(_absolute_name(each) for each in words or ())
 
 
-def _full(name: str) -> str:
+def _absolute_name(name: str) -> str:
     return name if name.startswith("/") else f"/{name}"
 
 
 def _types(value: Any, what: str) -> dict[str, str]:
-    return {_full(name): str(each) for name, each in _mapping(value, what).items()}
+    return {_absolute_name(name): str(each) for name, each in _mapping(value, what).items()}
 
 
 def _topic(name: str, value: Any) -> ExpectedTopic:

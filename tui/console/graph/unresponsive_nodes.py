@@ -36,7 +36,7 @@ class _PolledNode:
         self.answer: Future[Any] | None = None
         self.polls = OVERDUE_POLLS
         """Polls since the request, or since its response if there was one."""
-        self.lives = False
+        self.has_responded = False
         """Whether the node has ever responded."""
 
     @property
@@ -93,7 +93,7 @@ class UnresponsiveNodes:
         asked = self._nodes.pop(name)
         self._nodes[name] = asked  # moves to the end, so that the others are asked first next time
         if not asked.client.service_is_ready():
-            if asked.lives:
+            if asked.has_responded:
                 self._report(self._silent | {name})
             return  # a new client first has to discover its server
         if asked.answer is not None and not asked.answer.done():
@@ -105,7 +105,7 @@ class UnresponsiveNodes:
 
     def _answered(self, name: str, asked: _PolledNode, answer: Future[Any]) -> None:
         if answer is asked.answer:
-            asked.polls, asked.lives = 0, True
+            asked.polls, asked.has_responded = 0, True
             self._report(self._silent - {name})
 
     def _report(self, silent: frozenset[str]) -> None:

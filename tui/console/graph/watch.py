@@ -173,9 +173,9 @@ class GraphWatch:
         changed = [(_answer(nodes, each), _answer(self._nodes, each)) for each in different]
         topics, services = self._topics, self._services
         if not self._reported or any(now[:2] != before[:2] for now, before in changed):
-            topics = _same(self._observer.node.get_topic_names_and_types(), topics)
+            topics = _keep_if_equal(self._observer.node.get_topic_names_and_types(), topics)
         if not self._reported or any(now[2:] != before[2:] for now, before in changed):
-            services = _same(self._observer.node.get_service_names_and_types(), services)
+            services = _keep_if_equal(self._observer.node.get_service_names_and_types(), services)
         return topics, services
 
     def _inspect(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
@@ -210,7 +210,7 @@ def _answer(nodes: Mapping[Owner, tuple[Answer, NodeInfo]], owner: Owner) -> Ans
     return nodes[owner][0] if owner in nodes else NOTHING
 
 
-def _same(pairs: Pairs, before: Pairs) -> Pairs:
+def _keep_if_equal(pairs: Pairs, before: Pairs) -> Pairs:
     return before if pairs == before else pairs
 
 

@@ -91,7 +91,13 @@ class RosLauncher(ProcessVerbs):
         self._heard = heard
         self._every = every
         self._listener = Listener(
-            self._started, self._output, self._exited, self._missing, self._over, self._ending, self._fault
+            self._started,
+            self._output,
+            self._exited,
+            self._missing,
+            self._on_action_completed,
+            self._on_run_ending,
+            self._fault,
         )
         self._lock = threading.RLock()
         self._entries: dict[str, _ProcessEntry] = {}
@@ -213,7 +219,7 @@ class RosLauncher(ProcessVerbs):
         else:
             self._ended(entry, why)
 
-    def _want(self, verb: str, key: str) -> Future[Answer]:
+    def _request(self, verb: str, key: str) -> Future[Answer]:
         with self._lock:
             entry = self._entries.get(key)
             if entry is None or self._closed:
@@ -324,7 +330,7 @@ class RosLauncher(ProcessVerbs):
             )
             self._report(f"{label} is missing: {event.reason}", Severity.WARN)
 
-    def _over(self, action: Any) -> None:
+    def _on_action_completed(self, action: Any) -> None:
         with self._lock:
             entry = self._by_action.get(action)
             if entry is not None:
@@ -339,7 +345,7 @@ class RosLauncher(ProcessVerbs):
                 self._report(f"{before.label}: {entry.process.info.problem or 'has ended'}")
             self._order(entry, order)
 
-    def _ending(self, run: LaunchRun, reason: str) -> None:
+    def _on_run_ending(self, run: LaunchRun, reason: str) -> None:
         with self._lock:
             if reason not in ("", "idle"):
                 self._report(f"{run.title} ends: {reason}")

@@ -94,7 +94,7 @@ class LaunchedProcess:
         """Request one of `start`, `stop`, `kill`, `restart`, answered when that is done, or one of `POLICIES`."""
         outcome: Future[Answer] = Future()
         if verb in POLICIES or (verb not in STARTS and self._due is not None):
-            outcome.set_result(self._set_policy(verb) if verb in POLICIES else self._given_up())
+            outcome.set_result(self._set_policy(verb) if verb in POLICIES else self._cancel_restart())
             return Order.NOTHING, outcome
         refusal = self._refusal(verb)
         if refusal:
@@ -114,7 +114,7 @@ class LaunchedProcess:
         self.info = replace(self.info, restart_policy=self._policy.text if wanted else "")
         return Answer(True, f"{label} is restarted {self.info.restart_policy}" if wanted else f"{label} stays ended")
 
-    def _given_up(self) -> Answer:
+    def _cancel_restart(self) -> Answer:
         self.forget_restart()
         return Answer(True, f"{self.info.label} is not restarted")
 

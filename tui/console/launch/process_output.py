@@ -137,12 +137,12 @@ class OutputReader:
 
     def feed(self, text: str) -> None:
         """Process the next piece of output; an unfinished line or record waits for its end, unless it is very long."""
-        self._take(self._rest + text)
+        self._process_text(self._rest + text)
         if len(self._rest) > MAX_RECORD_CHARACTERS:
             rest, self._rest = self._rest, ""
             self._printed(rest)
 
-    def _take(self, text: str) -> None:
+    def _process_text(self, text: str) -> None:
         at = 0
         while begin := _BEGIN.search(text, at):
             if begin.start() > at:
@@ -151,7 +151,7 @@ class OutputReader:
             if end is None:
                 self._rest = text[begin.start() :]
                 return
-            self._marked(text[begin.end() : end.start()])
+            self._process_record(text[begin.end() : end.start()])
             at = end.end()
         self._rest = self._lines(text[at:])
 
@@ -160,7 +160,7 @@ class OutputReader:
         rest, self._rest = self._rest, ""
         begin = _BEGIN.match(rest)
         if begin and END in rest:
-            self._marked(rest[begin.end() : rest.rindex(END)])
+            self._process_record(rest[begin.end() : rest.rindex(END)])
         elif rest.strip():
             self._printed(rest[begin.end() if begin else 0 :])
 
@@ -171,7 +171,7 @@ class OutputReader:
                 self._printed(line.rstrip("\r"))
         return rest
 
-    def _marked(self, text: str) -> None:
+    def _process_record(self, text: str) -> None:
         parts = text.split(PART, len(FIELDS) - 2)
         if len(parts) != len(FIELDS) - 1 or not _is_number(parts[1]):
             self._printed(text)

@@ -9,32 +9,32 @@ from bot_console.tui.console.answer import Answer
 
 
 class ProcessVerbs(ABC):
-    """The methods of `Launcher` that control one process, all implemented by `_want`."""
+    """The methods of `Launcher` that control one process, all implemented by `_request`."""
 
     def start(self, key: str) -> Future[Answer]:
         """Start a process that has ended; the answer comes when it runs."""
-        return self._want("start", key)
+        return self._request("start", key)
 
     def stop(self, key: str) -> Future[Answer]:
         """Stop a process as Ctrl-C does; the answer comes when it has ended."""
-        return self._want("stop", key)
+        return self._request("stop", key)
 
     def kill(self, key: str) -> Future[Answer]:
         """Kill a process with SIGKILL; launch respawns it if its launch file says so."""
-        return self._want("kill", key)
+        return self._request("kill", key)
 
     def restart(self, key: str) -> Future[Answer]:
         """Stop and start a process; the answer comes when it runs again."""
-        return self._want("restart", key)
+        return self._request("restart", key)
 
     def restart_on_failure(self, key: str) -> Future[Answer]:
         """From now on, restart a process whenever it fails, as the settings say."""
-        return self._want("restart_on_failure", key)
+        return self._request("restart_on_failure", key)
 
     def leave_ended(self, key: str) -> Future[Answer]:
         """No longer restart a process when it fails."""
-        return self._want("leave_ended", key)
+        return self._request("leave_ended", key)
 
     @abstractmethod
-    def _want(self, verb: str, key: str, /) -> Future[Answer]:
+    def _request(self, verb: str, key: str, /) -> Future[Answer]:
         """Apply a verb to the process with this key."""

@@ -87,14 +87,14 @@ class Usage:
         if passed < CPU_POLL_S / 2 or not is_due(self._at, now, CPU_POLL_S):
             return
         used, wanted = self._vitals.cpu_seconds(), self._vitals.wanted_seconds()
-        share = _share(self._used, used, passed)
-        busy = max(share or 0.0, _share(self._wanted, wanted, passed) or 0.0) >= BUSY_SHARE
+        share = _cpu_share(self._used, used, passed)
+        busy = max(share or 0.0, _cpu_share(self._wanted, wanted, passed) or 0.0) >= BUSY_SHARE
         if share is None or self.share is None or abs(share - self.share) > CPU_NOISE:
             self.share = share
         self.busy_s = self.busy_s + passed if busy else 0.0
         self._at, self._used, self._wanted = now, used, wanted
         held = self._vitals.memory_bytes()
-        self.memory = None if held is None else _steady(held)
+        self.memory = None if held is None else _rounded_megabytes(held)
 
     def _why_it_stalls(self) -> str:
         if self._vitals.is_stopped():
@@ -110,10 +110,10 @@ class Usage:
         )
 
 
-def _share(before: float | None, after: float | None, passed: float) -> float | None:
+def _cpu_share(before: float | None, after: float | None, passed: float) -> float | None:
     return None if before is None or after is None else round(max(0.0, after - before) / passed, 2)
 
 
-def _steady(held: int) -> int:
+def _rounded_megabytes(held: int) -> int:
     megabytes = round(held / 1e6)
     return megabytes if megabytes < 100 else round(megabytes, -1)

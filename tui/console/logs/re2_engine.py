@@ -21,14 +21,14 @@ class Re2Engine:
     def __init__(self, re2: Any, written: str, body: str, word: bytes | None) -> None:
         self.anywhere = re2._Anchor.UNANCHORED
         self.word = re.escape(word) if word is not None else None
-        self.match = _compiled(re2, written, FLAGS + body)
+        self.match = _compile(re2, written, FLAGS + body)
         within = within_lines(body)
         self.over = within != body
         """Whether a match may extend over the end of a line in a text of several lines."""
         self.run: Match | None = None
         """Finds a run of whole lines that all match, which is cheaper if many do; None where that is not possible."""
         if within is not None:
-            self.run = _compiled(re2, written, f"{FLAGS}(?:^[^\\n]*(?:{within})[^\\n]*\\n)+")
+            self.run = _compile(re2, written, f"{FLAGS}(?:^[^\\n]*(?:{within})[^\\n]*\\n)+")
 
     def search(self, text: bytes) -> bool:
         """Whether it matches anywhere in a text."""
@@ -54,7 +54,7 @@ def within_lines(body: str) -> str | None:
     return "".join(parts)
 
 
-def _compiled(re2: Any, written: str, pattern: str) -> Match:
+def _compile(re2: Any, written: str, pattern: str) -> Match:
     options = re2.Options()
     options.log_errors = False  # errors would be written to the terminal
     options.never_capture = True

@@ -74,7 +74,7 @@ class _WordMatcher:
         for result, exclude in self._places:
             mask &= result.of(segment.site[begin:end]) != exclude
         for term in self._spans:
-            mask &= _within(term.span, segment.stamp[begin:end]) != term.exclude
+            mask &= _in_span(term.span, segment.stamp[begin:end]) != term.exclude
         if self._texts and mask.any():
             blob, ends = segment.texts(begin, end), segment.start[begin + 1 : end + 1] - segment.start[begin]
             for term, named in self._texts:
@@ -101,7 +101,7 @@ class _TestResults(Generic[T]):
         return self._known[numbers]
 
 
-def _within(span: Span, stamps: Rows) -> Mask:
+def _in_span(span: Span, stamps: Rows) -> Mask:
     at = (stamps + _offsets(stamps)) % DAY_NS if span.daily else stamps
     if span.begin > span.end:
         return (at >= span.begin) | (at < span.end)

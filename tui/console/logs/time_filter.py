@@ -90,36 +90,36 @@ def _point(text: str, now: int) -> _Point:
         return _Point(moment, moment, ago=True)
     epoch = _EPOCH.fullmatch(text)
     if epoch:
-        return _sized(int(epoch[1]) * SECOND_NS, epoch[2] or "")
+        return _point_with_decimals(int(epoch[1]) * SECOND_NS, epoch[2] or "")
     found = _CLOCK.fullmatch(text)
     if not found or not (found["date"] or found["clock"]):
         raise ValueError(f"time '{text}' is not valid; for instance {EXAMPLES}")
     try:
-        return _on_a_clock(found["date"], found["clock"], found["part"] or "")
+        return _parse_clock_time(found["date"], found["clock"], found["part"] or "")
     except (ValueError, OverflowError):
         raise ValueError(f"time '{text}' does not exist; for instance {EXAMPLES}") from None
 
 
-def _sized(begin: int, part: str, whole: int = SECOND_NS) -> _Point:
+def _point_with_decimals(begin: int, part: str, whole: int = SECOND_NS) -> _Point:
     """A time with the decimals `part` of a second; `whole` is its precision (ns) if there are none."""
     return _Point(
         begin + int(part.ljust(9, "0")), begin + int(part.ljust(9, "0")) + (10 ** (9 - len(part)) if part else whole)
     )
 
 
-def _on_a_clock(date: str | None, clock: str | None, part: str) -> _Point:
+def _parse_clock_time(date: str | None, clock: str | None, part: str) -> _Point:
     hours, minutes, *seconds = (int(each) for each in (clock or "0:00").split(":"))
     if hours > 23 or minutes > 59 or (seconds and seconds[0] > 59) or (part and not seconds):
         raise ValueError
     of_day = (hours * 3600 + minutes * 60 + (seconds[0] if seconds else 0)) * SECOND_NS
     unit = SECOND_NS if seconds else 60 * SECOND_NS
     if date is None:
-        point = _sized(of_day, part, unit)
+        point = _point_with_decimals(of_day, part, unit)
         return _Point(point.begin, point.end, daily=True)
     day = time.strptime(date, "%Y-%m-%d")
     begin = int(time.mktime((*day[:3], hours, minutes, seconds[0] if seconds else 0, 0, 0, -1))) * SECOND_NS
     if clock:
-        return _sized(begin, part, unit)
+        return _point_with_decimals(begin, part, unit)
     year, month, number = day[:3]
     # a day has 23 to 25 hours
     return _Point(begin, int(time.mktime((year, month, number + 1, 0, 0, 0, 0, 0, -1))) * SECOND_NS)

@@ -58,7 +58,7 @@ class Range:
             return end if math.isfinite(end) and self.low <= self.high else None
         exact = self._width * Fraction(share)
         if not whole and not self.step:
-            return self._free(float(self.low + exact), self._hundredth)
+            return self._clamp(float(self.low + exact), self._hundredth_step)
         return self._point(round(exact / self._spacing), whole, upward=True)
 
     def moved(self, value: float, steps: int, *, whole: bool) -> float | None:
@@ -67,8 +67,8 @@ class Range:
             end = self.high if value > self.high else self.low
             return end if math.isfinite(end) and self.low <= self.high else None
         if not whole and not self.step:
-            step = self._hundredth if self.finite else free_step(value)
-            moved = self._free(value + steps * step, step)
+            step = self._hundredth_step if self.finite else free_step(value)
+            moved = self._clamp(value + steps * step, step)
             beside = math.nextafter(value, math.copysign(math.inf, steps))  # in a range that is only a few doubles wide
             return moved if moved != value else min(max(beside, self.low), self.high)
         if not (math.isfinite(self.low) and math.isfinite(min(abs(self.step), self.high))):
@@ -93,10 +93,10 @@ class Range:
         return Fraction(abs(self.step) or 1)
 
     @property
-    def _hundredth(self) -> float:
+    def _hundredth_step(self) -> float:
         return round_step(self.high / STEPS_ACROSS - self.low / STEPS_ACROSS)
 
-    def _free(self, value: float, step: float) -> float:
+    def _clamp(self, value: float, step: float) -> float:
         return min(max(rounded(value, step), self.low), self.high)
 
     def _point(self, at: int, whole: bool, *, upward: bool) -> float | None:

@@ -139,10 +139,10 @@ class ParameterEdits:
     def _send(self, key: Key, value: Value, *, continues: bool) -> None:
         answer = self._parameters.set(key[0], {key[1]: value}, ChangeSource.EDIT, continues=continues)
         number = self._pending.sent({key: value}, self.clock())
-        answer.add_done_callback(partial(self._later, self._answered, number, key, value))
+        answer.add_done_callback(partial(self._later, self._on_answer, number, key, value))
 
-    def _answered(self, number: int, key: Key, value: Value, done: Future[tuple[SetOutcome, ...]]) -> None:
-        accepted, newest = self._take(number, done), self._pending.take(key)
+    def _on_answer(self, number: int, key: Key, value: Value, done: Future[tuple[SetOutcome, ...]]) -> None:
+        accepted, newest = self._process_outcomes(number, done), self._pending.take(key)
         continues = self._kept_continues.pop(key, False)
         if not accepted:
             self._stepped = None
@@ -177,9 +177,9 @@ class ParameterEdits:
         """Send values together: either all of them are accepted, or none."""
         # Not when the answer arrives: someone who stages a value in the meantime wants to continue staging.
         self.staging.marking = bool(self.staging.marked.keys() - values.keys())
-        self._send_all(values, "", partial(self._applied, values))
+        self._send_all(values, "", partial(self._on_applied, values))
 
-    def _applied(self, values: Mapping[Key, Value], accepted: bool) -> None:
+    def _on_applied(self, values: Mapping[Key, Value], accepted: bool) -> None:
         marked = self.staging.marked
         if accepted:
             self.staging.marked = {key: value for key, value in marked.items() if values.get(key) != value}
@@ -194,9 +194,9 @@ class ParameterEdits:
 
     def swap(self) -> None:
         """Send the set that is not live."""
-        self._send_all(self.staging.other, SETS[1 - self.staging.live], self._swapped)
+        self._send_all(self.staging.other, SETS[1 - self.staging.live], self._on_swapped)
 
-    def _swapped(self, accepted: bool) -> None:
+    def _on_swapped(self, accepted: bool) -> None:
         if accepted:
             self.staging.live = 1 - self.staging.live
 
@@ -206,13 +206,13 @@ class ParameterEdits:
         answer.add_done_callback(partial(self._later, self._answered_all, number, then))
 
     def _answered_all(self, number: int, then: Callable[[bool], None], done: Future[tuple[SetOutcome, ...]]) -> None:
-        accepted = self._take(number, done)
+        accepted = self._process_outcomes(number, done)
         then(accepted)
         if not (accepted or done.exception()):
             self._failed("", done.result())
         self._changed()
 
-    def _take(self, number: int, done: Future[tuple[SetOutcome, ...]]) -> bool:
+    def _process_outcomes(self, number: int, done: Future[tuple[SetOutcome, ...]]) -> bool:
         """Keep the refusals, and drop those of values that are accepted now; returns whether all were accepted."""
         error = done.exception()
         outcomes = () if error else done.result()

@@ -50,12 +50,12 @@ def robots_of(graph: GraphInfo) -> tuple[CommandTopics, ...]:
         namespace, _, token = topic.rpartition("/")
         if token in (TELEOP, FINAL):
             found.setdefault(namespace or "/", {})[token] = topic
-    usual = [CommandTopics(name, topics) for name, topics in _by_length(found.items())]
+    usual = [CommandTopics(name, topics) for name, topics in _sorted_by_length(found.items())]
     named = {topic for each in usual for topic in each.topics.values()}
     inside = {topic for topic in listened - named if topic.rpartition("/")[0] in found or topic.endswith(ASKED)}
     unusual = [CommandTopics(topic, {FINAL: topic}, False) for topic in sorted(listened - named - inside)]
     return (*usual, *unusual)
 
 
-def _by_length(items: Iterable[tuple[str, dict[str, str]]]) -> list[tuple[str, dict[str, str]]]:
+def _sorted_by_length(items: Iterable[tuple[str, dict[str, str]]]) -> list[tuple[str, dict[str, str]]]:
     return sorted(items, key=lambda item: (len(item[0]), item[0]))

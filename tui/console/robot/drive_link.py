@@ -173,7 +173,7 @@ class DriveLink:
                 self._watching[token] = self._node.create_subscription(DiagnosticArray, topic, self._reported, 10)
         elif topic:
             self._watching[token] = self._node.create_subscription(
-                self._kind(topic), topic, partial(self._saw, token), FORCED
+                self._twist_class(topic), topic, partial(self._record_command, token), FORCED
             )
 
     def _reported(self, message: DiagnosticArray) -> None:
@@ -184,10 +184,10 @@ class DriveLink:
                 self._verdict = Verdict.of(values)
                 self._heard[VERDICT] = self._now()
 
-    def _kind(self, topic: str) -> Any:
+    def _twist_class(self, topic: str) -> Any:
         return TwistStamped if self._found.fleet.types.get(topic) == STAMPED else Twist
 
-    def _saw(self, token: str, message: Any) -> None:
+    def _record_command(self, token: str, message: Any) -> None:
         twist = getattr(message, "twist", message)
         velocity = (twist.linear.x, twist.angular.z)
         self._seen[token] = velocity
@@ -340,7 +340,7 @@ class DriveLink:
         self._publish(self._robot.get(token), linear, angular, sideways)
 
     def _publisher(self, topic: str) -> Any:
-        key = (topic, self._kind(topic))
+        key = (topic, self._twist_class(topic))
         if key not in self._publishers:
             self._publishers[key] = self._node.create_publisher(key[1], topic, 10)
         return self._publishers[key]
@@ -348,7 +348,7 @@ class DriveLink:
     def _publish(self, topic: str, linear: float, angular: float, sideways: float = 0.0) -> None:
         if not topic:
             return
-        message = self._kind(topic)()
+        message = self._twist_class(topic)()
         twist = getattr(message, "twist", message)
         twist.linear.x, twist.linear.y, twist.angular.z = float(linear), float(sideways), float(angular)
         if twist is not message and not self._found.simulated:

@@ -94,7 +94,7 @@ class WorldWatch:
         scope = self._fleet.scope(self._robot)
         for type_name, wanted in PREFERRED.items():
             own = scope.own(self._fleet.published(type_name), shared=type_name == MAP)
-            self._use(type_name, best(own, wanted))
+            self._subscribe_to(type_name, best(own, wanted))
         robots = self._with_odometry()
         if (robots, self._robot.robot) != (self._robots, before.robot):
             self._robots, self._fresh = robots, True
@@ -118,7 +118,7 @@ class WorldWatch:
         self._trail.clear()
         self.past = PastPoses()
 
-    def _use(self, type_name: str, topic: str) -> None:
+    def _subscribe_to(self, type_name: str, topic: str) -> None:
         now = self._subscriptions.get(type_name)
         if (now.topic_name if now else "") == topic:
             return

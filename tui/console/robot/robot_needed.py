@@ -26,27 +26,27 @@ def robot_wanted(node: Node) -> str:
     if any(node.get_publishers_info_by_topic(topic) for topic in SOURCES):
         return ""
     reasons = [
-        f"nobody publishes {topic} for {_listed(wanting)}"
+        f"nobody publishes {topic} for {_enumerate_names(wanting)}"
         for topic, kind in SOURCES.items()
-        if (wanting := _visible(node.get_subscriptions_info_by_topic(topic), kind))
+        if (wanting := _visible_nodes(node.get_subscriptions_info_by_topic(topic), kind))
     ]
     for kind in KINDS:
-        drivers = _visible(node.get_publishers_info_by_topic(VELOCITY), kind)
-        if drivers and not _visible(node.get_subscriptions_info_by_topic(VELOCITY), kind):
-            reasons.append(f"nobody subscribes to {VELOCITY} of {_listed(drivers)}")
+        drivers = _visible_nodes(node.get_publishers_info_by_topic(VELOCITY), kind)
+        if drivers and not _visible_nodes(node.get_subscriptions_info_by_topic(VELOCITY), kind):
+            reasons.append(f"nobody subscribes to {VELOCITY} of {_enumerate_names(drivers)}")
     return ", ".join(reasons)
 
 
 def drives_stamped(node: Node) -> bool:
     """Whether velocities are published with a time stamp, and none without."""
     found = node.get_publishers_info_by_topic(VELOCITY)
-    return bool(_visible(found, STAMPED)) and not _visible(found, TWIST)
+    return bool(_visible_nodes(found, STAMPED)) and not _visible_nodes(found, TWIST)
 
 
 def endpoints(node: Node) -> object:
     """The part of the graph that `robot_wanted` depends on; equal values mean that nothing relevant has changed."""
     topics = (*SOURCES, VELOCITY)
-    found = [each for topic in topics for each in _both(node, topic)]
+    found = [each for topic in topics for each in _endpoints(node, topic)]
     return sorted(node.get_node_names_and_namespaces()), [(each.node_name, each.topic_type) for each in found]
 
 
@@ -55,15 +55,15 @@ def visible_nodes(node: Node) -> int:
     return sum(not name.startswith("_") for name in node.get_node_names())
 
 
-def _both(node: Node, topic: str) -> Iterable[TopicEndpointInfo]:
+def _endpoints(node: Node, topic: str) -> Iterable[TopicEndpointInfo]:
     yield from node.get_publishers_info_by_topic(topic)
     yield from node.get_subscriptions_info_by_topic(topic)
 
 
-def _visible(found: Iterable[TopicEndpointInfo], kind: str) -> list[str]:
+def _visible_nodes(found: Iterable[TopicEndpointInfo], kind: str) -> list[str]:
     names = (node_name_of(each) for each in found if each.topic_type == kind)
     return sorted({name for name in names if not name.rpartition("/")[2].startswith("_")})
 
 
-def _listed(names: list[str]) -> str:
+def _enumerate_names(names: list[str]) -> str:
     return " and ".join(names) if len(names) < 3 else f"{names[0]} and {len(names) - 1} others"

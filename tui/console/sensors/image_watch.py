@@ -63,7 +63,7 @@ class ImageWatch(FollowedTopic):
             return Picture(self._topic, problem=self._problem)
         began = time.monotonic()
         try:
-            width, height, encoding, shown, output = _shown(message, *self._size)
+            width, height, encoding, shown, output = _convert(message, *self._size)
         except ValueError as error:
             return Picture(self._topic, count=count, problem=str(error))
         rows, columns = shown.shape[:2]
@@ -81,7 +81,7 @@ class ImageWatch(FollowedTopic):
         )
 
 
-def _shown(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels.Pixels, str]:
+def _convert(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels.Pixels, str]:
     """Width, height, encoding, the scaled pixels, and a note about them; raises `ValueError`."""
     if hasattr(message, "encoding"):
         shown, output = pixels.scaled(message, columns, rows)

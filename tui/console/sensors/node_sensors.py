@@ -48,7 +48,7 @@ class NodeSensors:
             self._images.follow(graph)
             self._frames.follow(graph)
 
-    def _explained(self) -> tuple[Diagnostics, Picture, Frames]:
+    def _unreached_values(self) -> tuple[Diagnostics, Picture, Frames]:
         """Before the system is reached: nothing, with the reason; the same objects until the reason changes."""
         why = self._gate.unreached
         if self._nothing[0].problem != why:
@@ -57,7 +57,7 @@ class NodeSensors:
 
     def diagnostics(self) -> Diagnostics:
         """The latest diagnostics."""
-        return self._diagnostics.diagnostics() if self._diagnostics else self._explained()[0]
+        return self._diagnostics.diagnostics() if self._diagnostics else self._unreached_values()[0]
 
     def watch_image(self, topic: str, columns: int, rows: int) -> None:
         """Receive the images of a topic."""
@@ -65,7 +65,7 @@ class NodeSensors:
 
     def picture(self) -> Picture:
         """The newest image."""
-        return self._images.picture() if self._diagnostics else self._explained()[1]
+        return self._images.picture() if self._diagnostics else self._unreached_values()[1]
 
     def watch_frames(self, on: bool) -> None:
         """Start or stop listening to `/tf` and `/tf_static`."""
@@ -73,4 +73,4 @@ class NodeSensors:
 
     def frames(self) -> Frames:
         """The frames received while listening."""
-        return self._frames.frames() if self._diagnostics else self._explained()[2]
+        return self._frames.frames() if self._diagnostics else self._unreached_values()[2]

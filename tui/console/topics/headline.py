@@ -61,7 +61,7 @@ UNNAMED: Mapping[str, str] = {"linear.x": "", "angular.z": ""}
 def headline(message: Any, type_name: str) -> str:
     """A message of a type (`package/msg/Name`) on one line."""
     short = short_name(type_name)
-    found = [part for path in PREFERRED.get(short, ()) for part in _at(message, short, path)]
+    found = [part for path in PREFERRED.get(short, ()) for part in _parts_at(message, short, path)]
     if [name for name, _ in found[:2]] == ["width", "height"]:
         found = [("", f"{found[0][1].split()[0]} x {found[1][1]}"), *found[2:]]
     if not found:
@@ -73,7 +73,7 @@ def headline(message: Any, type_name: str) -> str:
     ]
 
 
-def _at(message: Any, type_name: str, path: str) -> Iterator[tuple[str, str]]:
+def _parts_at(message: Any, type_name: str, path: str) -> Iterator[tuple[str, str]]:
     """Names and texts of the parts of a field at a path in a message."""
     *steps, name = path.split(".")
     unit = ""

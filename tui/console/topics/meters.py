@@ -43,7 +43,7 @@ class Meter:
     def __init__(self, stamped: bool, clock: Callable[[], int], *, known: bool = False) -> None:
         """`known` says that the topic was measured before and has only waited for its turn."""
         self._known = known
-        self._stamped = stamped
+        self._has_header = stamped
         self._clock = clock
         self._count = self._size = self._stamps = 0
         self._late = 0
@@ -62,7 +62,7 @@ class Meter:
         self._size += len(data)
         self.newest = data if len(data) <= MAX_VALUE_BYTES else b""
         self._first, self._last = self._first or now, now
-        if self._stamped and len(data) >= STAMP_OFFSET_BYTES + 8:
+        if self._has_header and len(data) >= STAMP_OFFSET_BYTES + 8:
             seconds, nanoseconds = (LITTLE if data[1] & 1 else BIG).unpack_from(data, STAMP_OFFSET_BYTES)
             self._late += received - seconds * 1_000_000_000 - nanoseconds
             self._stamps += 1
@@ -149,7 +149,7 @@ class Meters:
             self._problems[topic] = str(error)
             return
         offer = offered_qos(graph, topic)
-        meter = Meter(_stamped(kind), time.time_ns, known=topic in self._resting)
+        meter = Meter(_has_header(kind), time.time_ns, known=topic in self._resting)
         subscription = self._node.create_subscription(kind, topic, meter.take, offer.profile(), raw=True)
         self._meters[topic] = subscription, meter, offer.key
         self._problems.pop(topic, None)
@@ -217,6 +217,6 @@ def in_turn(rates: Mapping[str, float], resting: Sequence[str], budget: float) -
     return chosen
 
 
-def _stamped(kind: Any) -> bool:
+def _has_header(kind: Any) -> bool:
     """Whether messages of a type begin with a header, and thus with a stamp."""
     return next(iter(fields_of(kind).values()), "") == HEADER

@@ -189,7 +189,7 @@ class NodeTopics:
         """Publish a message once, or at a rate (Hz)."""
         from bot_console.tui.console.topics.publishing import MAX_RATE_HZ
 
-        wrong = self._gate.refusal or self._all_wrong(Payload.MESSAGE, type_name, values)
+        wrong = self._gate.refusal or self._field_errors(Payload.MESSAGE, type_name, values)
         wrong = wrong or ("" if 0 <= rate <= MAX_RATE_HZ else f"the rate must be between 0 and {MAX_RATE_HZ:g} Hz")
         if wrong:
             return Answer(False, wrong)
@@ -199,7 +199,7 @@ class NodeTopics:
         message = f"publishing to {topic} at {rate:g} Hz" if rate else f"published to {topic}"
         return Answer(True, message + ("" if heard else ", where nobody listens"))
 
-    def _all_wrong(self, payload: Payload, type_name: str, values: Values) -> str:
+    def _field_errors(self, payload: Payload, type_name: str, values: Values) -> str:
         try:
             self._forms.filled(payload, type_name, values)
         except ValueError as error:
@@ -217,7 +217,7 @@ class NodeTopics:
 
     def call(self, service: str, type_name: str, values: Values) -> Future[Reply]:
         """Call a service."""
-        if not (self._gate.refusal or self._all_wrong(Payload.REQUEST, type_name, values)):
+        if not (self._gate.refusal or self._field_errors(Payload.REQUEST, type_name, values)):
             self._remember(service, values)
         return self._gate.run(lambda: self._call(service, type_name, values), partial(Reply, False))
 
@@ -263,7 +263,7 @@ class NodeTopics:
 
     def send_goal(self, action: str, type_name: str, values: Values) -> Answer:
         """Send a goal."""
-        wrong = self._gate.refusal or self._all_wrong(Payload.GOAL, type_name, values)
+        wrong = self._gate.refusal or self._field_errors(Payload.GOAL, type_name, values)
         if wrong:
             return Answer(False, wrong)
         self._remember(action, values)

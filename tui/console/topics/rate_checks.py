@@ -57,7 +57,7 @@ class RateChecks:
 
     def _gather(self, profile: Profile | None, trees: Mapping[str, ParameterTree]) -> None:
         sources = self._of_file, profile, trees
-        if len(self._sources) == len(sources) and all(map(_is, self._sources, sources)):
+        if len(self._sources) == len(sources) and all(map(_is_same, self._sources, sources)):
             return
         self._sources = sources
         expected = dict(self._of_file)
@@ -87,7 +87,7 @@ class RateChecks:
         return RateCheck(name, topic.text, text, late, time.time_ns(), before.times + (late is True))
 
 
-def _is(before: object, now: object) -> bool:
+def _is_same(before: object, now: object) -> bool:
     return before is now
 
 

@@ -58,10 +58,10 @@ def host_addresses(folder: str) -> list[str]:
     return sorted(str(each) for each in Path(folder).iterdir() if _NAME.fullmatch(each.name))
 
 
-def remove_addresses_of_dead_hosts(folder: str, lives: Callable[[int], bool]) -> None:
-    """Remove the sockets that killed hosts have left in a folder; `lives` returns whether a process is alive."""
+def remove_addresses_of_dead_hosts(folder: str, is_alive: Callable[[int], bool]) -> None:
+    """Remove the sockets that killed hosts have left in a folder; `is_alive` returns whether a process is alive."""
     for left in host_addresses(folder):
-        if not lives(pid_of_address(left)):
+        if not is_alive(pid_of_address(left)):
             with contextlib.suppress(FileNotFoundError):
                 os.unlink(left)
 

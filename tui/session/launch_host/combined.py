@@ -94,7 +94,7 @@ class CombinedLauncher(ProcessVerbs):
                 del self._others[address]
             return self._merged.merge({name: each.info() for name, each in (*self._others.items(), *self._own.items())})
 
-    def _free(self, *, use: bool) -> HostedLauncher | None:
+    def _free_host(self, *, use: bool) -> HostedLauncher | None:
         """A host of this console that can take another launch; with `use`, it is reserved for that launch."""
         with self._lock:
             for name, each in self._own.items():
@@ -109,7 +109,7 @@ class CombinedLauncher(ProcessVerbs):
         """
         if self._over.is_set():
             return done(Answer(False, CLOSED))
-        if (free := self._free(use=True)) is not None:
+        if (free := self._free_host(use=True)) is not None:
             return free.launch(path, arguments)
 
         def start() -> Answer:
@@ -128,7 +128,7 @@ class CombinedLauncher(ProcessVerbs):
         """The launch files to choose from."""
         return self._files()
 
-    def _want(self, verb: str, key: str) -> Future[Answer]:
+    def _request(self, verb: str, key: str) -> Future[Answer]:
         name, _, its_key = key.rpartition(SEPARATOR)
         with self._lock:
             launcher = self._own.get(name) or self._others.get(name)
@@ -138,12 +138,12 @@ class CombinedLauncher(ProcessVerbs):
         return outcome
 
     def _host(self, *, use: bool) -> HostedLauncher:
-        """Return a host like `_free`, but start one if there is none.
+        """Return a host like `_free_host`, but start one if there is none.
 
         Raises `ValueError` if none can be started, or when the console is closing.
         """
         with self._starting:
-            return self._free(use=use) or self._start_own(use=use)
+            return self._free_host(use=use) or self._start_own(use=use)
 
     def _start_own(self, *, use: bool) -> HostedLauncher:
         if self._over.is_set():

@@ -43,7 +43,7 @@ class MergedInfo:
                 self._seen[name] = info.timeline[-1].seq
         self._info = LaunchInfo(
             tuple(file for each in infos.values() for file in each.files),
-            tuple(_keyed(name, process) for name, each in infos.items() for process in each.processes),
+            tuple(_with_host_key(name, process) for name, each in infos.items() for process in each.processes),
             self._info.timeline,
             next((each.problem for each in [*infos.values()][::-1] if each.problem), ""),
             sum(each.delayed for each in infos.values()),
@@ -57,5 +57,5 @@ class MergedInfo:
         self._info = replace(self._info, timeline=(*self._info.timeline, *numbered)[-MAX_EVENTS:])
 
 
-def _keyed(name: str, process: ProcessInfo) -> ProcessInfo:
+def _with_host_key(name: str, process: ProcessInfo) -> ProcessInfo:
     return replace(process, key=f"{name}{SEPARATOR}{process.key}")

@@ -93,11 +93,11 @@ class HostedLauncher(ProcessVerbs):
 
     def launch(self, path: str, arguments: Mapping[str, str]) -> Future[Answer]:
         """Run another launch file; the answer comes when its first process runs, or when it has failed or ended."""
-        return self._want("launch", path, dict(arguments))
+        return self._request("launch", path, dict(arguments))
 
     def keep(self, folder: str) -> Future[Answer]:
         """Save the last minutes that the host keeps in memory as a bag."""
-        return self._want("keep", folder)
+        return self._request("keep", folder)
 
     def arguments(self, path: str) -> Sequence[LaunchArgument]:
         """The arguments that a launch file declares; raises `ValueError` if it cannot be read."""
@@ -137,7 +137,7 @@ class HostedLauncher(ProcessVerbs):
         self._channel.close()
         self._gone.wait(1.0)
 
-    def _want(self, verb: str, *words: Any) -> Future[Answer]:
+    def _request(self, verb: str, *words: Any) -> Future[Answer]:
         outcome: Future[Answer] = Future()
 
         def answered(done: Future[Message]) -> None:

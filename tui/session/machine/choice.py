@@ -52,10 +52,10 @@ def choose(
     listed = f"There are two systems here:\n  1  {found}\n  2  a system of bot-console in this ROS domain\n"
     if not interactive():
         return SystemChoice(code=2, text=f"{listed}Choose one with --ros or --embedded.")
-    return _asked(found, listed, ask)
+    return _ask_user(found, listed, ask)
 
 
-def _asked(found: MachineRos, listed: str, ask: Callable[[str], str]) -> SystemChoice:
+def _ask_user(found: MachineRos, listed: str, ask: Callable[[str], str]) -> SystemChoice:
     try:
         answer = ask(f"{listed}Attach to which? [1/2] ").strip()
     except (EOFError, KeyboardInterrupt):

@@ -219,12 +219,12 @@ class UnknownMeans:
 def means_of(node: Node, configured: ConfiguredMeans) -> StopMeans:
     """Create a configured means with the interfaces of a node; one that cannot be set up reports that when used."""
     try:
-        return _made(node, configured)
+        return _make_means(node, configured)
     except Exception as error:
         return UnknownMeans(configured.name, str(error))
 
 
-def _made(node: Node, configured: ConfiguredMeans) -> StopMeans:
+def _make_means(node: Node, configured: ConfiguredMeans) -> StopMeans:
     name, target = configured.name, configured.target
     if configured.kind == LOCK:
         return LockTopic(node, configured)

@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from bot_console.tui.console.sensors.image_watch import _shown
+from bot_console.tui.console.sensors.image_watch import _convert
 from bot_console.tui.console.sensors.pixels import KNOWN, fitted_size, scaled
 from hypothesis import given
 from hypothesis import strategies as st
@@ -103,11 +103,11 @@ def test_compressed_images_need_pillow_and_faults_in_them_are_reported() -> None
     library = pytest.importorskip("PIL.Image")
     file = io.BytesIO()
     library.new("RGB", (8, 4), (200, 10, 20)).save(file, "PNG")
-    width, height, encoding, pixels, _ = _shown(CompressedImage(format="png", data=file.getvalue()), 4, 4)
+    width, height, encoding, pixels, _ = _convert(CompressedImage(format="png", data=file.getvalue()), 4, 4)
     assert (width, height, encoding, pixels.shape) == (8, 4, "png", (2, 4, 3)) and pixels[0, 0].tolist() == [
         200,
         10,
         20,
     ]
     with pytest.raises(ValueError, match="cannot be decoded"):
-        _shown(CompressedImage(format="jpeg", data=b"\xff\xd8nonsense"), 4, 4)
+        _convert(CompressedImage(format="jpeg", data=b"\xff\xd8nonsense"), 4, 4)
