@@ -1,5 +1,6 @@
 """A launch file that is fully evaluated, with nothing started: the output of `--print --resolved`."""
 
+# pyright: reportPrivateUsage=false
 # Discovery is internal to launch and not for its users, so as upstream it has underscores.
 
 from __future__ import annotations
