@@ -33,7 +33,7 @@ TESTS = Path(__file__).resolve().parents[1]
 sys.path[:0] = [str(TESTS / "helpers"), str(TESTS / "acceptance" / "console"), str(TESTS / "soak")]
 from headless_under_load import busy_processes
 from processes.live_robot import LiveRobot, live_robot
-from processes.losses import CONSOLE, _environment
+from processes.losses import _environment
 from terminal import Terminal
 
 HEARD = """
@@ -122,7 +122,7 @@ class Base:
     """The state of the base's lock, as received by another process."""
 
     def __init__(self, robot: LiveRobot) -> None:
-        self._last_message: list[tuple[float, bool]] = []
+        self._states: list[tuple[float, bool]] = []
         process = robot.program(HEARD, stdout=subprocess.PIPE)
         threading.Thread(target=self._read, args=(process,), daemon=True).start()
 
@@ -130,25 +130,23 @@ class Base:
         assert process.stdout is not None
         for line in process.stdout:
             moment, locked = line.split()
-            self._last_message.append((float(moment), locked == b"true"))
+            self._states.append((float(moment), locked == b"true"))
 
     @property
     def locked(self) -> bool:
         """Whether it is locked, by its last report."""
-        return bool(self._last_message) and self._last_message[-1][1]
+        return bool(self._states) and self._states[-1][1]
 
     def message_of(self, locked: bool, since: float) -> float | None:
         """When it first reported that state after `since`; None if it has not."""
-        return next(
-            (moment for moment, message in list(self._last_message) if moment >= since and message is locked), None
-        )
+        return next((moment for moment, state in list(self._states) if moment >= since and state is locked), None)
 
 
 @contextlib.contextmanager
 def console(robot: LiveRobot) -> Iterator[Terminal]:
     """A console whose output is read all the time."""
     with _environment(robot.environment):
-        terminal = Terminal(CONSOLE, robot.folder)
+        terminal = Terminal(robot.attach, robot.folder)
     over = threading.Event()
 
     def read() -> None:
