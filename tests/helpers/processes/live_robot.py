@@ -247,7 +247,8 @@ def live_robot(folder: Path, sockets: Path, domain: int = 77, kind: type[LiveRob
     sockets.mkdir(mode=0o700, exist_ok=True)
     robot = kind(
         folder, {"BOT_CONSOLE_SOCKET_DIR": str(sockets), "ROS_DOMAIN_ID": str(domain), "ROS_HOME": str(folder),
-                 "XDG_STATE_HOME": str(folder), "XDG_CONFIG_HOME": str(folder), "OMP_NUM_THREADS": "1"},
+                 "BOT_CONSOLE_USER_DIR": "", "XDG_STATE_HOME": str(folder), "XDG_CONFIG_HOME": str(folder),
+                 "OMP_NUM_THREADS": "1"},
     )  # fmt: skip
     try:
         robot.drives()
