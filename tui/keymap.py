@@ -147,7 +147,7 @@ TABLE: dict[str, tuple[Key, ...]] = {
         ),
         Key("profiles.open", "o", "open_file", "Open any parameter file: see what it would change", footer="Open"),
         Key("profiles.compare", "c", "compare", "Compare all profiles, or preview the selected one", footer="Compare"),
-        Key("profiles.save", "S", "save_profile", "Save what runs as a profile, with a name"),
+        Key("profiles.save", "S", "save_profile", "Save the running values as a profile, with a name"),
         Key("profiles.rename", "m", "rename_profile", "Rename one of your profiles"),
         Key("profiles.delete", "d,delete", "delete_profile", "Delete one of your profiles, after a question"),
         Key("profiles.presets", "p", "presets", "Presets that nodes keep as a service: apply, save, delete"),
