@@ -1,11 +1,12 @@
-"""Everything sent to other processes carries a seal, by which a receiver recognises truncated messages."""
+"""Everything sent to other processes carries a seal, by which a receiver recognises cut and misdirected messages."""
 
+import itertools
 import os
 import threading
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
-from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.attachment import key_hash_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key
 from bot_console.runtime.rosidl import type_hash
 from geometry_msgs.msg import Twist, Vector3
@@ -38,13 +39,16 @@ def stranger(here, monkeypatch):
     session.close()
 
 
-def is_sealed(payload, attachment):
-    unpack(attachment, payload)
-    try:
-        unpack(attachment, payload[:-1] + bytes([payload[-1] ^ 1]))
-    except FormatError:
-        return True
-    return False
+def is_sealed(key, payload, attachment):
+    unpack(attachment, payload, key_hash_of(key))
+    changed = payload[:-1] + bytes([payload[-1] ^ 1])
+    for other in ((changed, key_hash_of(key)), (payload, key_hash_of(f"{key}2"))):
+        try:
+            unpack(attachment, *other)
+        except FormatError:
+            continue
+        return False
+    return True
 
 
 @pytest.mark.parametrize("profile", [QoSProfile(depth=10), EVERYTHING], ids=["depth", "all"])
@@ -61,7 +65,7 @@ def test_messages_are_sealed(here, stranger, profile):
 
     here.until(message)
     here.node.destroy_publisher(publisher)
-    assert all(is_sealed(*sample) for sample in heard)
+    assert all(is_sealed(key, *sample) for sample in heard)
 
 
 def test_requests_and_responses_are_sealed(here, stranger):
@@ -84,7 +88,7 @@ def test_requests_and_responses_are_sealed(here, stranger):
     querier = stranger.declare_querier(PULL, TIMEOUT_S)
     querier.get(payload, pack(1, 5, GID), lambda *reply: replies.append(reply), done.set)
     assert done.wait(TIMEOUT_S)
-    assert len(replies) == 1 and all(is_sealed(*each) for each in (*asked, *replies))
+    assert len(replies) == 1 and all(is_sealed(PULL, *each) for each in (*asked, *replies))
 
 
 def test_a_truncated_command_is_ignored_and_one_without_seal_is_accepted(here, stranger):
@@ -95,9 +99,33 @@ def test_a_truncated_command_is_ignored_and_one_without_seal_is_accepted(here, s
     slow, fast = (serialize_message(Twist(linear=Vector3(x=speed))) for speed in (0.1, 9.0))
 
     def came():
-        publisher.put(fast, pack(1, 5, GID, slow))
+        publisher.put(fast, pack(1, 5, GID, slow, key_hash_of(key)))
         publisher.put(slow, pack(2, 5, GID))
         return heard
 
     here.until(came)
     assert set(heard) == {0.1}
+
+
+def test_a_request_that_arrives_at_another_service_is_not_served(here, stranger):
+    served = []
+
+    def serve(request, response):
+        served.append(request)
+        return response
+
+    here.node.create_service(Trigger, "/halt", serve)
+    halt = data_key(DOMAIN, "/halt", "std_srvs/srv/Trigger", type_hash.text(Trigger))
+    querier = stranger.declare_querier(halt, TIMEOUT_S)
+    payload, numbers = serialize_message(Trigger.Request()), itertools.count(1)
+
+    def ask(intended_key):
+        replies, done = [], threading.Event()
+        attachment = pack(next(numbers), 5, GID, payload, key_hash_of(intended_key))
+        querier.get(payload, attachment, lambda *reply: replies.append(reply), done.set)
+        here.until(done.is_set)
+        return replies
+
+    here.until(lambda: ask(halt))
+    before = len(served)
+    assert not ask(PULL) and len(served) == before > 0

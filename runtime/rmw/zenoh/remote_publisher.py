@@ -13,7 +13,7 @@ from bot_console.runtime.rmw.zenoh.declarations import Publisher
 from bot_console.runtime.rmw.zenoh.sender import Sender
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.type_agreement import has_same_type
-from bot_console.runtime.rmw.zenoh.wire.attachment import pack
+from bot_console.runtime.rmw.zenoh.wire.attachment import key_hash_of, pack
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 
 KEEP_ALL_DEPTH = 1000
@@ -33,6 +33,7 @@ class RemotePublisher(deque[Any]):
         self._session = session
         self._publisher = publisher
         self._key = key
+        self._key_hash = key_hash_of(key)
         self._topic = publisher.endpoint.topic
         self.gid = publisher.endpoint.gid
         self._out: Publisher | None = None
@@ -52,7 +53,7 @@ class RemotePublisher(deque[Any]):
         """Send one message, which the publisher has serialized."""
         data, stamp, _, number, _ = entry
         out = self._out or self._open()
-        attachment = pack(number, stamp, self.gid, data)
+        attachment = pack(number, stamp, self.gid, data, self._key_hash)
         if self._blocking:
             self._sender.send(out, self._topic, data, attachment)
         else:

@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.congestion_control import BLOCKING_TOPICS
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.runtime.rmw.zenoh.type_agreement import has_same_type
-from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, unpack
+from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, key_hash_of, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize
@@ -81,6 +81,7 @@ class RemoteSubscription:
         self._own = own
         self.message_class = subscription.endpoint.message_class
         self._key = key
+        self._key_hash = key_hash_of(key)
         self._publishers: dict[bytes, RemotePublisher] = {}
         self._process = current()
         self._session = session
@@ -100,7 +101,7 @@ class RemoteSubscription:
         """Handle a message, on one of Zenoh's threads."""
         subscription = self._subscription
         try:
-            number, stamp, gid = unpack(attachment, payload)
+            number, stamp, gid = unpack(attachment, payload, self._key_hash)
             # The history query also reaches the caches of this session, whatever `allowed_origin` is.
             if gid in self._own:
                 return

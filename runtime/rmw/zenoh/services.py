@@ -12,7 +12,7 @@ from bot_console.runtime.process.notices import notify
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.zenoh.declarations import Declaration, Querier, Query
 from bot_console.runtime.rmw.zenoh.session import Session
-from bot_console.runtime.rmw.zenoh.wire.attachment import pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.attachment import key_hash_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
 from bot_console.runtime.rmw.zenoh.wire.tokens import Token
 from bot_console.runtime.rosidl.cdr import CdrError, deserialize, serialize
@@ -40,6 +40,7 @@ class RequestReceiver:
 
     def __init__(self, session: Session, service: ServiceEndpoint, key: str) -> None:
         self._service = service
+        self._key_hash = key_hash_of(key)
         self._lock = threading.Lock()
         self._pending: dict[Caller, Query] = {}
         self._process = current()
@@ -50,7 +51,7 @@ class RequestReceiver:
         """Handle a request, on one of Zenoh's threads."""
         service = self._service
         try:
-            number, _, gid = unpack(query.attachment, query.payload)
+            number, _, gid = unpack(query.attachment, query.payload, self._key_hash)
             if number < 0 or not query.payload:
                 raise FormatError("its number is negative, or it is empty")
             request = deserialize(query.payload, service.service_class.Request)
@@ -77,7 +78,7 @@ class RequestReceiver:
             query = self._pending.pop((client.gid, number), None)
         if query is not None:
             payload = serialize(response)
-            query.answer(payload, pack(number, self._clock.system_ns(), client.gid, payload))
+            query.answer(payload, pack(number, self._clock.system_ns(), client.gid, payload, self._key_hash))
 
     def close(self) -> None:
         """Stop serving and drop pending requests."""
@@ -95,6 +96,7 @@ class RequestSender:
         self._session = session
         self._client = client
         self._key = key
+        self._key_hash = key_hash_of(key)
         self._process = current()
         self._clock = current().clock
         self._querier: Querier | None = None
@@ -138,7 +140,7 @@ class RequestSender:
             timeout = RESULT_TIMEOUT_S if self._client.name.endswith(RESULT) else ANSWER_TIMEOUT_S
             self._querier = self._session.declare_querier(self._key, timeout)
         payload = serialize(request)
-        attachment = pack(number, self._clock.system_ns(), self._client.gid, payload)
+        attachment = pack(number, self._clock.system_ns(), self._client.gid, payload, self._key_hash)
         return self._querier.get(payload, attachment, self._on_reply)
 
     def send_again(self) -> None:
@@ -156,7 +158,7 @@ class RequestSender:
         """Handle a response, on one of Zenoh's threads."""
         client = self._client
         try:
-            number, _, gid = unpack(attachment, payload)
+            number, _, gid = unpack(attachment, payload, self._key_hash)
             if gid != client.gid:
                 return
             response = deserialize(payload, client.service_class.Response)

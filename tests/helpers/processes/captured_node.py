@@ -44,11 +44,11 @@ class CapturedNode:
 
     def _hear(self, data, attachment):
         self.payloads.append(bytes(data))
-        self.heard.append(unpack(attachment, data))
+        self.heard.append(unpack(attachment))
 
     def send(self, message, stamp=None):
         """Publish a message, or serialized bytes, with the source timestamp `stamp` (ns)."""
         data = message if isinstance(message, bytes) else serialize_message(message)
         self.number += 1
         stamp = time.time_ns() if stamp is None else stamp
-        self.publisher.put(data, pack(self.number, stamp, gid_of(self.token.key), data))
+        self.publisher.put(data, pack(self.number, stamp, gid_of(self.token.key)))

@@ -1,7 +1,7 @@
 """The wire format of rmw_zenoh compared with captures of live nodes and with published hashes."""
 
 import pytest
-from bot_console.runtime.rmw.zenoh.wire.attachment import SEALED, gid_of, pack, unpack
+from bot_console.runtime.rmw.zenoh.wire.attachment import SEALED, gid_of, key_hash_of, pack, unpack
 from bot_console.runtime.rmw.zenoh.wire.keys import FormatError, data_key, ros_type
 from bot_console.runtime.rmw.zenoh.wire.qos_text import (
     Durability,
@@ -64,6 +64,17 @@ def test_our_attachment_extends_that_of_rmw_zenoh_and_verifies_the_payload(size)
     for spoilt in (payload[:-1] + b"\1", payload + b"\0" if size < SEALED else payload[:-SEALED] + b"\1" * SEALED):
         with pytest.raises(FormatError, match="not what was sent"):
             unpack(data, spoilt)
+    another = pack(attachment[0] + 1, *attachment[1:], payload)
+    with pytest.raises(FormatError, match="not what was sent"):
+        unpack(another[: len(ATTACHMENT)] + data[len(ATTACHMENT) :], payload)
+
+
+def test_message_that_arrives_at_another_key_is_rejected():
+    attachment, payload = unpack(ATTACHMENT), b"\0\1\0\0\0\0\0\0"
+    data = pack(*attachment, payload, key_hash_of("0/arm/get_parameter_types/T/H"))
+    assert unpack(data, payload, key_hash_of("0/arm/get_parameter_types/T/H")) == attachment
+    with pytest.raises(FormatError, match="not what was sent here"):
+        unpack(data, payload, key_hash_of("0/simulator/stop/T/H"))
 
 
 @pytest.mark.parametrize("end", [b"xxh", b"xxh3", b"xxh3" + bytes(7), b"xxh4" + bytes(8), bytes(12)])

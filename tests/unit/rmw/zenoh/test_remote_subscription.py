@@ -5,11 +5,12 @@ from types import SimpleNamespace
 import pytest
 from bot_console.runtime.rmw.endpoints import Endpoint, NodeId, SubscriptionEndpoint, Tap, queue_for, take_queued
 from bot_console.runtime.rmw.zenoh.remote_subscription import RemoteSubscription
-from bot_console.runtime.rmw.zenoh.wire.attachment import pack
+from bot_console.runtime.rmw.zenoh.wire.attachment import key_hash_of, pack
 from rclpy.qos import QoSProfile
 from rclpy.serialization import serialize_message
 from std_msgs.msg import String
 
+KEY_HASH = key_hash_of("key")
 GID = bytes(range(16))
 QOS = QoSProfile(depth=10)
 
@@ -79,12 +80,12 @@ def test_corrupted_message_is_dropped_reported_and_counted(received, notices):
     remote_subscription, queue, events = received
     give(remote_subscription, 1)
     whole = serialize_message(String(data="forward, slowly"))
-    remote_subscription.on_sample(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole))
+    remote_subscription.on_sample(whole[:-8] + b"foreign\0", pack(2, 5, GID, whole, KEY_HASH))
     assert len(queue) == 1
     assert notices == [
-        "a message on '/t' was dropped: it is not what was sent: the link to its sender broke during transmission"
+        "a message on '/t' was dropped: it is not what was sent here: the link to its sender broke during transmission"
     ]
-    remote_subscription.on_sample(whole, pack(3, 5, GID, whole))
+    remote_subscription.on_sample(whole, pack(3, 5, GID, whole, KEY_HASH))
     assert take_queued(queue[-1][0]).data == "forward, slowly"
     assert events == [("lost", 1)]
 

@@ -8,13 +8,14 @@ from types import SimpleNamespace
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, NodeId, ServiceEndpoint
 from bot_console.runtime.rmw.zenoh.services import RequestReceiver, RequestSender
 from bot_console.runtime.rmw.zenoh.session import Session
-from bot_console.runtime.rmw.zenoh.wire.attachment import pack
+from bot_console.runtime.rmw.zenoh.wire.attachment import key_hash_of, pack
 from example_interfaces.srv import AddTwoInts
 from rclpy.serialization import serialize_message
 
+KEY_HASH = key_hash_of("key")
 GID = bytes(range(16))
 NAME, TYPE = "/add", "example_interfaces/srv/AddTwoInts"
-REPORTED = "it is not what was sent: the link to its sender broke during transmission"
+REPORTED = "it is not what was sent here: the link to its sender broke during transmission"
 SESSION = SimpleNamespace(declare_queryable=lambda key, asked: None)
 
 
@@ -37,23 +38,33 @@ def test_corrupted_request_is_not_served(notices):
     service = ServiceEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts)
     served = RequestReceiver(SESSION, service, "key")
     sent = serialize_message(AddTwoInts.Request(a=1, b=2))
-    cut = Request(corrupt(sent), pack(1, 5, GID, sent))
+    cut = Request(corrupt(sent), pack(1, 5, GID, sent, KEY_HASH))
     served.on_query(cut)
     assert cut.dropped and not service.queue
     assert notices == [f"a request to '/add' was dropped: {REPORTED}"]
-    served.on_query(Request(sent, pack(2, 5, GID, sent)))
+    served.on_query(Request(sent, pack(2, 5, GID, sent, KEY_HASH)))
     ((_, number, request),) = service.queue
     assert (number, request.a, request.b) == (2, 1, 2)
+
+
+def test_request_to_another_service_is_not_served(notices):
+    service = ServiceEndpoint(NodeId("n", "/"), "/halt", TYPE, lambda: None, AddTwoInts)
+    served = RequestReceiver(SESSION, service, "key")
+    sent = serialize_message(AddTwoInts.Request(a=1, b=2))
+    astray = Request(sent, pack(1, 5, GID, sent, key_hash_of("another key")))
+    served.on_query(astray)
+    assert astray.dropped and not service.queue
+    assert notices == [f"a request to '/halt' was dropped: {REPORTED}"]
 
 
 def test_corrupted_response_is_not_accepted(notices):
     client = ClientEndpoint(NodeId("n", "/"), NAME, TYPE, lambda: None, AddTwoInts, gid=GID)
     asking = RequestSender(SESSION, client, "key")
     sent = serialize_message(AddTwoInts.Response(sum=3))
-    asking._on_reply(corrupt(sent), pack(1, 5, GID, sent))
+    asking._on_reply(corrupt(sent), pack(1, 5, GID, sent, KEY_HASH))
     assert not client.queue
     assert notices == [f"a response of '/add' was dropped: {REPORTED}"]
-    asking._on_reply(sent, pack(1, 5, GID, sent))
+    asking._on_reply(sent, pack(1, 5, GID, sent, KEY_HASH))
     ((number, response),) = client.queue
     assert (number, response.sum) == (1, 3)
 
