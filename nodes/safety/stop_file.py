@@ -5,6 +5,7 @@ from __future__ import annotations
 import contextlib
 import json
 import os
+import stat
 import time
 from collections.abc import Generator
 from dataclasses import replace
@@ -107,7 +108,9 @@ class StopFile:
             raise UnreadableStopFileError(f"{self._path} cannot be read: {why[:200]}") from None
 
     def _robots(self) -> dict[str, Any]:
-        with self._path.open("rb") as file:
+        with open(self._path, "rb", opener=_open_at_once) as file:
+            if not stat.S_ISREG(os.fstat(file.fileno()).st_mode):
+                raise ValueError("it is not a regular file")
             content = file.read(MAX_FILE_BYTES + 1)
         if len(content) > MAX_FILE_BYTES:
             raise ValueError("it is too large")
@@ -135,6 +138,11 @@ class StopFile:
                 os.fsync(folder)
             finally:
                 os.close(folder)
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    """Open a file; a pipe in its place would otherwise keep the node waiting for a writer."""
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))
 
 
 def _lock_of(section: Any) -> Lock:

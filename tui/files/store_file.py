@@ -16,9 +16,8 @@ def read_store(path: Path, maximum: int, *, end: bool = False) -> bytes:
     Raises `OSError`, in particular `FileNotFoundError` if there is no file. A pipe in its place is refused, since it
     would never end.
     """
-    handle = os.open(path, os.O_RDONLY | getattr(os, "O_NONBLOCK", 0) | getattr(os, "O_BINARY", 0))
-    with os.fdopen(handle, "rb") as file:
-        status = os.fstat(handle)
+    with open(path, "rb", opener=_open_at_once) as file:
+        status = os.fstat(file.fileno())
         if not (stat.S_ISREG(status.st_mode) or stat.S_ISCHR(status.st_mode)):  # some users link it to /dev/null
             raise OSError(errno.EINVAL, "it is not a regular file", str(path))
         if end and status.st_size > maximum:
@@ -27,3 +26,7 @@ def read_store(path: Path, maximum: int, *, end: bool = False) -> bytes:
     if len(content) > maximum:
         raise OSError(errno.EFBIG, f"it is larger than {maximum:,} bytes", str(path))
     return content
+
+
+def _open_at_once(path: str, flags: int) -> int:
+    return os.open(path, flags | getattr(os, "O_NONBLOCK", 0))

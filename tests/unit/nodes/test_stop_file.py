@@ -112,6 +112,17 @@ def test_file_with_other_content_is_replaced_only_on_request(content: bytes, tmp
     assert at(tmp_path).merge(Lock()).ids == {"b1"}
 
 
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such files")
+@pytest.mark.parametrize("make", [os.mkfifo, os.mkdir, lambda path: path.symlink_to("/dev/zero")])
+def test_anything_but_a_regular_file_is_refused_at_once(tmp_path: Path, make: Callable[[Path], object]) -> None:
+    path = tmp_path / "stops.json"
+    make(path)
+    with pytest.raises(UnreadableStopFileError, match=f"{path} cannot be read"):
+        StopFile(str(path), "/").merge(Lock())
+    StopFile(str(path), "/").merge(Lock((ANNA,), 1), replace_unreadable=True)
+    assert StopFile(str(path), "/").merge(Lock()).ids == {"a1"}
+
+
 def test_valid_file_is_read(tmp_path: Path) -> None:
     path = tmp_path / "state" / "stops.json"
     path.parent.mkdir()
