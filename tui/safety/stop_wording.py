@@ -29,6 +29,8 @@ def stop_text(drive: DriveInfo) -> str:
         return f"ALL STOP held by {sanitize(drive.held_by_means)} ({stop_key_text(drive, 'releases')})"
     if not drive.lockable:
         return f"STOP SENT, NOT CONFIRMED: {may_move_text(drive)} ({stop_key_text(drive, 'ends it')})"
+    if not drive.stop_confirmed and is_of_others(drive):
+        return f"STOP NOT CONFIRMED: THE ROBOT MAY MOVE ({sending_key_text(drive)}), stop{held_by(drive)}"
     if not drive.stop_confirmed:
         return f"STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE ({sending_key_text(drive)})"
     # The key comes first: a narrow terminal cuts off the end of the line.
@@ -56,8 +58,15 @@ def stop_key_text(drive: DriveInfo, ends: str) -> str:
 
 
 def sending_key_text(drive: DriveInfo) -> str:
-    """What the stop key does while no lock has acknowledged the stop."""
-    return IS_TEXT if drive.key_is_text else "! sends it again"
+    """What the stop key does while not every lock has acknowledged the stop."""
+    if drive.key_is_text:
+        return IS_TEXT
+    return "! stops it" if is_of_others(drive) else "! sends it again"
+
+
+def is_of_others(drive: DriveInfo) -> bool:
+    """Whether all stops are those of others; if some locks lack them, this console has sent nothing."""
+    return bool(drive.stops) and not drive.stopped_here
 
 
 def may_move_text(drive: DriveInfo) -> str:

@@ -294,6 +294,12 @@ def test_a_stop_that_is_not_acknowledged_is_not_called_held() -> None:
         session.console.change(drive=sent)
         await session.settle()
         assert "STOP SENT, NOT CONFIRMED" in session.text() and "held" not in session.text()
+        await session.press("6")
+        session.console.change(drive=replace(sent, stopped_here=True, refused="read-only"))
+        await session.settle()
+        assert "disarmed" not in session.text() and "held" not in session.text(), "nor where it cannot be released"
+        session.console.change(drive=sent)
+        await session.settle()
         await session.press("exclamation_mark")
         assert session.console.asked[-1] == ("all_stop", True), "it is sent again, not released"
         session.console.change(drive=DriveInfo(stopped=True, stopped_here=True))

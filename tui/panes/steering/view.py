@@ -10,7 +10,7 @@ from itertools import zip_longest
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.plane import ASKED, ROBOT, plane
 from bot_console.tui.panes.steering.state import RATE_HZ, Steering, is_stopped_after_steering
-from bot_console.tui.safety.stop_wording import held_by, may_move_text, sending_key_text, stop_key_text
+from bot_console.tui.safety.stop_wording import held_by, is_of_others, may_move_text, sending_key_text, stop_key_text
 from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.picture import Line
 
@@ -129,13 +129,14 @@ def _state_line(state: Steering, drive: DriveInfo, width: int) -> Line:
         return ((" STOP NOT CONFIRMED ", "error"), (" looking for the robot", ""))
     if drive.stopped and drive.nothing_to_stop:
         return ((" STOP ", "warn"), (f" nothing is here to stop: {topic}", ""))
-    if drive.refused:
+    if drive.refused and (drive.stop_confirmed or not drive.stopped):
         return _line_without_keys(drive, topic)
     if drive.stopped and not drive.lockable and is_stopped_after_steering(drive):
         key = stop_key_text(drive, "ends them")
         return ((" STOPPED ", "warn"), (f" by zero Twists (no emergency stop): Enter resumes steering, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
-        return ((" STOP SENT, NOT CONFIRMED ", "error"), (_unconfirmed(drive), ""))
+        return ((" STOP NOT CONFIRMED " if is_of_others(drive) else " STOP SENT, NOT CONFIRMED ", "error"),
+                (_unconfirmed(drive), ""))  # fmt: skip
     if drive.stopped and is_stopped_after_steering(drive):
         key = stop_key_text(drive, "returns control to its program")
         return ((" STOPPED ", "warn"), (f" Enter resumes steering, {key}", ""))
@@ -162,6 +163,8 @@ def _line_without_keys(drive: DriveInfo, topic: str) -> Line:
 
 
 def _unconfirmed(drive: DriveInfo) -> str:
+    if is_of_others(drive):
+        return f" {sending_key_text(drive)}: stop{held_by(drive)}"
     return f" {sending_key_text(drive)}" if drive.lockable else f" {may_move_text(drive)}: no emergency stop"
 
 

@@ -8,7 +8,7 @@ from types import MappingProxyType
 import pytest
 from bot_console.tui.console.bags.port import RecordingInfo
 from bot_console.tui.console.model import ConsoleSnapshot, LaunchInfo, LinkInfo, LogState, RateCheck, Severity
-from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
 from bot_console.tui.widgets.status_bar import drive_figures, reason_first, status_text
 
 
@@ -32,6 +32,14 @@ def test_a_stop_without_a_robot_reports_that_there_is_nothing_to_stop() -> None:
     assert "STOP REACHES NOBODY: no robot listens for commands" in status_text(ConsoleSnapshot(drive=nobody))
     for robot in (DriveInfo(stopped=True, topic="/cmd_vel"), DriveInfo(stopped=True, lockable=True)):
         assert "STOP SENT, NOT CONFIRMED" in status_text(ConsoleSnapshot(drive=robot))
+
+
+def test_stop_of_another_person_that_only_some_locks_hold_is_not_called_sent() -> None:
+    stops = (RobotStop("a1", "anna@pc", "the arm swings"),)
+    partly = DriveInfo(stopped=True, lockable=True, stops=stops, stop_holder="anna@pc", stop_reason="the arm swings")
+    text = status_text(ConsoleSnapshot(drive=partly))
+    assert text.startswith("STOP NOT CONFIRMED: THE ROBOT MAY MOVE (! stops it), stop by anna@pc: the arm swings")
+    assert "STOP SENT" in status_text(ConsoleSnapshot(drive=replace(partly, stopped_here=True)))
 
 
 def test_a_console_that_is_read_only_promises_no_release() -> None:
