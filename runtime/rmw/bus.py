@@ -9,7 +9,7 @@ from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     GraphChanged,
-    Hear,
+    MessageObserver,
     NodeId,
     Notify,
     OnEvent,
@@ -153,8 +153,8 @@ class Bus(Protocol):
         """
         ...
 
-    def overhear(self, hear: Hear | None) -> None:
-        """Pass each message that this process publishes or receives to `hear`; None removes the observer.
+    def monitor(self, observer: MessageObserver | None) -> None:
+        """Pass each message that this process publishes or receives to `observer`; None removes the observer.
 
         The observer is not a subscription: publishers and the graph do not show it, and nothing is sent on its behalf.
         """

@@ -33,7 +33,7 @@ Payload = Any
 serialized. Only the code that created the endpoint knows the class; `_copy_()` copies and checks an instance.
 """
 
-Hear = Callable[["Endpoint", bytes, int, int, Payload], None]
+MessageObserver = Callable[["Endpoint", bytes, int, int, Payload], None]
 """Called, in the thread that publishes or receives, with each message that a process carries: an endpoint that gives
 topic, class and QoS, the publisher's gid, its sequence number, the time of sending (ns), and the message, or its bytes
 if it was serialized. The message must not be changed; one from another process is passed once per subscription.
@@ -43,10 +43,10 @@ if it was serialized. The message must not be changed; one from another process 
 class Tap:
     """Holds the observer of all messages, which the endpoints of a bus share."""
 
-    __slots__ = ("hear",)
+    __slots__ = ("observer",)
 
     def __init__(self) -> None:
-        self.hear: Hear | None = None
+        self.observer: MessageObserver | None = None
         """None while there is no observer."""
 
 

@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     GraphChanged,
-    Hear,
+    MessageObserver,
     NodeId,
     OnEvent,
     Owner,
@@ -55,9 +55,9 @@ class LocalBus:
         """Return nothing: this bus knows no other processes."""
         return {}
 
-    def overhear(self, hear: Hear | None) -> None:
-        """Pass each published message to `hear`, without a subscription; None removes the observer."""
-        self.tap.hear = hear
+    def monitor(self, observer: MessageObserver | None) -> None:
+        """Pass each published message to `observer`, without a subscription; None removes the observer."""
+        self.tap.observer = observer
 
     def add_node(self, name: str, namespace: str, enclave: str) -> NodeId:
         """Add a node to the graph."""

@@ -112,16 +112,16 @@ class LocalPublisher:
         """Put a message, or its bytes, into each target's queue; the message then belongs to the middleware."""
         if self.lease is not None or self.on_publish is not None:
             self.assert_liveliness()
-        history, hear = self.history, self._tap.hear
+        history, observer = self.history, self._tap.observer
         self._number = number = self._number + 1
-        if not targets and history is None and hear is None:
+        if not targets and history is None and observer is None:
             return
         stamp = self._now()
         takers = len(targets)
         if history is not None:
             history.append((message, stamp, number))
             takers += 1  # the kept message is never taken
-        if hear is not None:
+        if observer is not None:
             takers += 1
         expires = stamp + self._lifespan if self._lifespan else None
         # The last taker gets the message itself; the others get copies, which are made only if they take it.
@@ -131,8 +131,8 @@ class LocalPublisher:
                 data = _codec().serialize(message)
             target.queue.append((data if target.raw else given, stamp, stamp, number, expires))
             target.notify()
-        if hear is not None:
-            hear(self.endpoint, self.endpoint.gid, number, stamp, message if data is None else data)
+        if observer is not None:
+            observer(self.endpoint, self.endpoint.gid, number, stamp, message if data is None else data)
 
     def publish_raw(self, data: bytes) -> None:
         """Publish serialized data, deserialized for subscriptions that want a message."""
@@ -152,7 +152,7 @@ class LocalPublisher:
 
     def is_heard(self) -> bool:
         """Whether anybody receives what is published: a subscription, here or elsewhere, or an observer."""
-        return bool(self.targets) or self._tap.hear is not None
+        return bool(self.targets) or self._tap.observer is not None
 
     def send_elsewhere(self, remote_publisher: SubscriptionEndpoint | None) -> None:
         """Set the target that receives each message, serialized, for other processes; None if none subscribes."""

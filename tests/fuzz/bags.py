@@ -134,12 +134,12 @@ def control_seeds(storage: str) -> Callable[[], Sequence[str]]:
 
 
 def metadata(text: str) -> None:
-    from bot_console.tui.console.bags.damage import NoBag
+    from bot_console.tui.console.bags.damage import BagError
     from bot_console.tui.console.bags.metadata import qos_profiles
     from bot_console.tui.console.bags.reader import _files
 
     folder = file(text, "metadata.yaml").parent
-    with suppress(NoBag):
+    with suppress(BagError):
         _files(folder, {})
     qos_profiles(text)
 

@@ -40,14 +40,14 @@ def handshake_seeds() -> Sequence[str]:
 
 def router_answer(text: str) -> None:
     """Answer a client in place of a router: the answer is refused, with a reason."""
-    from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+    from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 
     with socket.create_server(("127.0.0.1", 0)) as listening:
         answering = threading.Thread(target=_answer, args=(listening, text.encode("latin-1", "replace")))
         answering.start()
-        way = Way((f"tcp/127.0.0.1:{listening.getsockname()[1]}",), timeout_s=0.05)
+        config = ClientConfig((f"tcp/127.0.0.1:{listening.getsockname()[1]}",), timeout_s=0.05)
         try:
-            open_network_session(0, way).close()
+            open_network_session(0, config).close()
         finally:
             socket.create_connection(listening.getsockname(), WAIT_S).close()  # if the client has given up before
             answering.join()
@@ -88,7 +88,7 @@ _routers: list[object] = []
 @cache
 def _recorded() -> tuple[bytes, bytes, bytes]:
     """The two messages of a client that connects to the router, and the router's answer to the first."""
-    from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+    from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 
     sent: list[bytes] = []
     answers: list[bytes] = []
@@ -106,7 +106,9 @@ def _recorded() -> tuple[bytes, bytes, bytes]:
         passing = threading.Thread(target=pass_on, args=(listening,))
         passing.start()
         with suppress(RuntimeError):  # the link ends as soon as it is open
-            open_network_session(0, Way((f"tcp/127.0.0.1:{listening.getsockname()[1]}",), timeout_s=WAIT_S)).close()
+            open_network_session(
+                0, ClientConfig((f"tcp/127.0.0.1:{listening.getsockname()[1]}",), timeout_s=WAIT_S)
+            ).close()
         passing.join()
     return sent[0], sent[1], answers[0]
 

@@ -44,7 +44,7 @@ def targets() -> list[Target]:
     from bot_console.runtime.rmw.zenoh.wire.keys import FormatError
     from bot_console.runtime.rosidl.parse import DefinitionError
     from bot_console.tui.cli.check.script import ScriptError
-    from bot_console.tui.console.bags.damage import NoBag
+    from bot_console.tui.console.bags.damage import BagError
     from bot_console.tui.console.plot.arrays import NotPlottable
     from bot_console.tui.files.jsonc import JsoncError
     from bot_console.tui.files.plot_presets import PlotPresetError
@@ -169,8 +169,8 @@ def targets() -> list[Target]:
         Target("printed lines", seeds.texts(seeds.TRACEBACK), messages.printed),
         Target("saved log", seeds.texts(*seeds.SAVED_LOG), bags.saved_log),
         Target("bag's metadata", seeds.texts(seeds.METADATA), bags.metadata),
-        Target("bag of MCAP", bags.mcap_seeds, bags.bag(".mcap"), (NoBag,)),
-        Target("bag of SQLite", bags.sqlite_seeds, bags.bag(".db3"), (NoBag,)),
+        Target("bag of MCAP", bags.mcap_seeds, bags.bag(".mcap"), (BagError,)),
+        Target("bag of SQLite", bags.sqlite_seeds, bags.bag(".db3"), (BagError,)),
         Target("file names", seeds.texts("~/a.yaml", "/tmp/x", "a b", "~root/x"), typed.typed_path, (NotSaved,)),
         Target(
             "keys of the network",
@@ -186,9 +186,9 @@ def targets() -> list[Target]:
         Target("progress in a course", seeds.texts(seeds.PROGRESS), stores.progress),
         Target("preset of curves", seeds.texts(seeds.CURVES), stores.preset_of_curves, (PlotPresetError,)),
         Target("system in the background", seeds.texts(seeds.BACKGROUND), stores.background),
-        Target("control topics in MCAP", bags.control_seeds("mcap"), bags.control_bag(".mcap"), (NoBag,), share=0.5),
+        Target("control topics in MCAP", bags.control_seeds("mcap"), bags.control_bag(".mcap"), (BagError,), share=0.5),
         Target(
-            "control topics in SQLite", bags.control_seeds("sqlite3"), bags.control_bag(".db3"), (NoBag,), share=0.5
+            "control topics in SQLite", bags.control_seeds("sqlite3"), bags.control_bag(".db3"), (BagError,), share=0.5
         ),
         Target("chapter of a course", seeds.files("tui/learn/courses/week6/*.md"), workspaces.chapter, (ValueError,)),
         Target("check script", seeds.texts(*seeds.SCRIPTS), workspaces.check_script, (ScriptError,)),

@@ -21,7 +21,7 @@ from bot_console.runtime.rmw.local import LocalBus, local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.session import Session
@@ -342,8 +342,8 @@ def network_rig(folder: Path) -> Rig:
     tls = Tls(paths.ca, paths.certificate, paths.key)
     endpoint = f"tls/localhost:{free_port()}"
     router = Router(Serving((endpoint,), tls.as_listener()))
-    way = Way((endpoint,), tls)
-    return LinkedRig(folder, lambda domain: open_network_session(domain, way), router.close)
+    config = ClientConfig((endpoint,), tls)
+    return LinkedRig(folder, lambda domain: open_network_session(domain, config), router.close)
 
 
 def machine_rig(folder: Path) -> Rig:

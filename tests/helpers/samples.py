@@ -198,7 +198,7 @@ def diagnosed() -> Diagnostics:
             status("motors/left/driver", Level.WARN, "warm", temperature="71 C"),
             status("motors/right/driver", Level.OK, "fine", temperature="40 C"),
             status("motors/right/encoder", Level.ERROR, "no pulses"),
-            status("camera", Level.OK, "30 Hz", heard=90.0),
+            status("camera", Level.OK, "30 Hz", last_received=90.0),
         ),
         ("/diagnostics",),
     )

@@ -20,7 +20,7 @@ HEAD = """
 from collections.abc import Callable, Mapping, Sequence
 from bot_console.runtime.rmw.bus import Bus, PublisherEndpoint, Thing
 from bot_console.runtime.rmw.endpoints import ClientEndpoint, Endpoint, Payload, NodeId, Notify, OnEvent
-from bot_console.runtime.rmw.endpoints import GraphChanged, Hear, ServiceEndpoint, SubscriptionEndpoint
+from bot_console.runtime.rmw.endpoints import GraphChanged, MessageObserver, ServiceEndpoint, SubscriptionEndpoint
 from bot_console.runtime.rmw.graph_tables import GraphTables
 from bot_console.runtime.rmw.middleware import choose_middleware
 """

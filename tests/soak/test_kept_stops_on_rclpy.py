@@ -19,7 +19,7 @@ from domains import unused_domain
 from processes.kept_stops import held_through
 from processes.live_robot import LiveRobot, live_robot
 from processes.ros_robot import RosRobot
-from processes.ways_to_lose_stops import WAYS
+from processes.ways_to_lose_stops import SCENARIOS
 from rigs import is_embedded_rclpy
 
 pytestmark = [
@@ -46,5 +46,5 @@ def robot(tmp_path_factory: pytest.TempPathFactory) -> Iterator[LiveRobot]:
 
 @pytest.mark.parametrize("name", TRIED)
 def test_a_stop_holds_until_it_is_released_and_then_does_not_come_back(robot: LiveRobot, name: str) -> None:
-    (way,) = (each for each in WAYS if each.name == name)
-    held_through(way, robot)
+    (scenario,) = (each for each in SCENARIOS if each.name == name)
+    held_through(scenario, robot)

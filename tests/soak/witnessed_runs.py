@@ -29,7 +29,7 @@ from headless_under_load import busy_processes
 from processes.kept_stops import held_through
 from processes.live_robot import BackgroundRobot, LiveRobot, live_robot
 from processes.losses import GROUPS as LOSSES
-from processes.ways_to_lose_stops import WAYS
+from processes.ways_to_lose_stops import SCENARIOS
 
 Run = Callable[[LiveRobot], float]
 """Returns how long (s) the robot moved on; raises `AssertionError` if it moved later."""
@@ -37,8 +37,8 @@ KEPT = "kept"
 IN_BACKGROUND = "kept in background"
 GROUPS: dict[str, dict[str, Run]] = {
     **{group: {each.__name__: each for each in runs} for group, runs in LOSSES.items()},
-    KEPT: {each.name: partial(held_through, each) for each in WAYS if not each.in_background},
-    IN_BACKGROUND: {each.name: partial(held_through, each) for each in WAYS if each.in_background},
+    KEPT: {each.name: partial(held_through, each) for each in SCENARIOS if not each.in_background},
+    IN_BACKGROUND: {each.name: partial(held_through, each) for each in SCENARIOS if each.in_background},
 }
 
 

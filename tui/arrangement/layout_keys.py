@@ -9,7 +9,7 @@ from typing import Protocol
 from bot_console.tui.files.save_file import NotSaved
 from bot_console.tui.layout.current_layout import CHROME_ROWS, Arrangement
 from bot_console.tui.layout.placing import Box, boxes, fits, neighbour
-from bot_console.tui.layout.tree import Tree, Way, close, even, exchange, panes, resize, split, turn
+from bot_console.tui.layout.tree import SplitDirection, Tree, close, even, exchange, panes, resize, split, turn
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option, Question
 from textual.fuzzy import Matcher
@@ -85,10 +85,12 @@ class LayoutEditor:
         if here != there:
             self._change(lambda tree: exchange(tree, here, there))
 
-    def split(self, way: Way) -> None:
+    def split(self, direction: SplitDirection) -> None:
         """Ask for a pane and put it beside or below the selected one."""
         here = self._screen.selected()
-        self._ask_pane(f"Pane {way} {here}", lambda pane: self._change(lambda tree: split(tree, here, pane, way), pane))
+        self._ask_pane(
+            f"Pane {direction} {here}", lambda pane: self._change(lambda tree: split(tree, here, pane, direction), pane)
+        )
 
     def put_another(self) -> None:
         """Ask for a pane and put it in place of the selected one."""
@@ -105,8 +107,8 @@ class LayoutEditor:
     def grow(self, columns: int, lines: int) -> None:
         """Move a border of the selected pane by a step."""
         here = self._screen.selected()
-        way: Way = "beside" if columns else "below"
-        self._change(lambda tree: resize(tree, here, way, STEP * (columns or lines)))
+        direction: SplitDirection = "beside" if columns else "below"
+        self._change(lambda tree: resize(tree, here, direction, STEP * (columns or lines)))
 
     def even(self) -> None:
         """Share the space equally."""

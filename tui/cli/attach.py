@@ -16,7 +16,7 @@ from bot_console.tui.session.network import run_network
 def run(words: Sequence[str]) -> int:
     """Show the console on the chosen system; returns 2 if the choice is unclear and nobody can be asked."""
     options = parse(words)
-    if options.way is not None:
+    if options.network is not None:
         return _needs_terminal() or _network(options)
     kind = choose(ros=options.ros, embedded=options.embedded, system_there=others_take_part())
     if kind.code:

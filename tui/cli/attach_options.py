@@ -7,7 +7,7 @@ import os
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from bot_console.runtime.rmw.zenoh.network.client import CONFIG_VARIABLE, Way
+from bot_console.runtime.rmw.zenoh.network.client import CONFIG_VARIABLE, ClientConfig
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls, place_of
 from bot_console.tui.cli.arguments import Options, attach_parser, parse_attach
 from bot_console.tui.session.embedded.domain import CONNECT_VARIABLE
@@ -31,14 +31,14 @@ class AttachOptions:
 
     appearance: Options
     """The options that every console has."""
-    way: Way | None = None
+    network: ClientConfig | None = None
     """The route to a robot on the network; None if none was given."""
     ros: bool = False
     embedded: bool = False
 
 
 def add_network_options(parser: argparse.ArgumentParser) -> None:
-    """Add the options for reaching a router; see `network_way`."""
+    """Add the options for reaching a router; see `network_config`."""
     add = parser.add_argument
     add(
         "--connect",
@@ -59,7 +59,7 @@ def add_network_options(parser: argparse.ArgumentParser) -> None:
     add("--tls-any-name", action="store_true", help="accept a certificate for another host name")
 
 
-def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> Way | None:
+def network_config(parser: argparse.ArgumentParser, given: argparse.Namespace) -> ClientConfig | None:
     """The route to a router, from an option or the environment; exits if a text is not an endpoint."""
     asked: list[str] | None = given.connect
     if asked is None:
@@ -80,7 +80,7 @@ def network_way(parser: argparse.ArgumentParser, given: argparse.Namespace) -> W
             parser.error(str(error))
     if problem := tls.problem():
         parser.error(problem)
-    return Way(endpoints, tls)
+    return ClientConfig(endpoints, tls)
 
 
 def parse(words: Sequence[str]) -> AttachOptions:
@@ -94,8 +94,8 @@ def parse(words: Sequence[str]) -> AttachOptions:
         "--embedded", action="store_true", help="attach to a bot-console system, even if ROS 2 is installed"
     )
     appearance, given = parse_attach(words, parser)
-    way = None if given.ros or given.embedded else network_way(parser, given)
-    if given.connect is not None and way is None:
+    config = None if given.ros or given.embedded else network_config(parser, given)
+    if given.connect is not None and config is None:
         parser.error("--connect, --ros and --embedded exclude each other")
-    appearance.reached_by = " ".join(way.endpoints) if way else ""
-    return AttachOptions(appearance, way, given.ros, given.embedded)
+    appearance.reached_by = " ".join(config.endpoints) if config else ""
+    return AttachOptions(appearance, config, given.ros, given.embedded)

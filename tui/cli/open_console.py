@@ -23,7 +23,7 @@ from bot_console.tui.session.embedded.domain import (
     others_take_part,
     report_of_other_start,
     robot_claim,
-    robot_there,
+    running_robot_nodes,
     same_names_there,
     take_part,
     unusable_domain,
@@ -62,7 +62,7 @@ def run(options: Options) -> int:
             hosts.callback(claim.release)
             if others_take_part() or not claim.held:
                 _prepare(options)
-                robot = claim.wait_for_robot(robot_there, report_of_other_start)
+                robot = claim.wait_for_robot(running_robot_nodes, report_of_other_start)
                 there = robot or same_names_there(options.launch_arguments)
                 if there and not wants_to_attach(there, robot=bool(robot)):
                     return 1
@@ -93,7 +93,12 @@ def _prepare(options: Options) -> None:
 def _connect(options: Options, warnings: list[str], own: Host | None, start: Callable[[], Host]) -> ConnectedParts:
     """Connect to the system, after the first frame, since these imports take longer than everything before it."""
     _prepare(options)
-    from bot_console.tui.session.composition import attached_launcher, embedded_launcher, hosted_launcher, overhear
+    from bot_console.tui.session.composition import (
+        attached_launcher,
+        embedded_launcher,
+        hosted_launcher,
+        start_snapshot_buffer,
+    )
     from bot_console.tui.session.connected import ConnectedParts
     from bot_console.tui.session.launch_host.proxy import HostedSnapshotBuffer
 
@@ -103,7 +108,7 @@ def _connect(options: Options, warnings: list[str], own: Host | None, start: Cal
         return ConnectedParts(options, message, attached_launcher(start))
     size = read_settings().kept
     if own is None:
-        return ConnectedParts(options, message, embedded_launcher, overhear(size) if size else None)
+        return ConnectedParts(options, message, embedded_launcher, start_snapshot_buffer(size) if size else None)
     buffer = HostedSnapshotBuffer(size.seconds) if size else None
     return ConnectedParts(options, message, hosted_launcher(own, buffer), buffer)
 

@@ -18,7 +18,7 @@ def tree_to_data(tree: Tree) -> object:
     """A tree as names, lists and mappings: `{beside: [parameters, {below: [world, plot]}], share: [3, 2]}`."""
     if isinstance(tree, str):
         return tree
-    data: dict[str, object] = {tree.way: [tree_to_data(part) for part in tree.parts]}
+    data: dict[str, object] = {tree.direction: [tree_to_data(part) for part in tree.parts]}
     if len(set(tree.shares)) > 1:
         data["share"] = list(tree.shares)
     return data
@@ -44,14 +44,14 @@ def _tree(data: object, known: Collection[str], depth: int) -> Tree:
         raise LayoutError(f"a pane's name, or a mapping with 'beside' or 'below', not {_kind(data)}")
     given = cast("Mapping[object, Any]", data)
     unknown = [str(key) for key in given if key not in ("beside", "below", "share")]
-    ways = [way for way in ("beside", "below") if way in given]
-    if unknown or len(ways) != 1:
+    directions = [direction for direction in ("beside", "below") if direction in given]
+    if unknown or len(directions) != 1:
         raise LayoutError(f"'{unknown[0][:40]}' is not known here" if unknown else "give either 'beside' or 'below'")
-    parts = given[ways[0]]
+    parts = given[directions[0]]
     if not isinstance(parts, list) or len(cast("list[object]", parts)) < 2:
-        raise LayoutError(f"'{ways[0]}' has a list of two parts or more")
+        raise LayoutError(f"'{directions[0]}' has a list of two parts or more")
     trees = tuple(_tree(part, known, depth + 1) for part in cast("list[object]", parts))
-    return Split("beside" if ways[0] == "beside" else "below", trees, _shares(given.get("share"), len(trees)))
+    return Split("beside" if directions[0] == "beside" else "below", trees, _shares(given.get("share"), len(trees)))
 
 
 def _shares(given: object, count: int) -> tuple[int, ...]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from bot_console.tui.layout.tree import Split, Tree, Way
+from bot_console.tui.layout.tree import Split, SplitDirection, Tree
 
 MIN_PANE_SIZE = (20, 4)
 """Columns and lines below which a pane shows nothing useful."""
@@ -27,7 +27,7 @@ class Border:
 
     path: tuple[int, ...]
     after: int
-    way: Way
+    direction: SplitDirection
     box: Box
     """The two lines of cells on both sides of it."""
     whole: int
@@ -52,22 +52,22 @@ def borders(tree: Tree, box: Box, path: tuple[int, ...] = ()) -> Iterator[Border
     for at, (part, place) in enumerate(zip(tree.parts, places, strict=True)):
         yield from borders(part, place, (*path, at))
     for at, place in enumerate(places[1:]):
-        if tree.way == "beside":
-            yield Border(path, at, tree.way, Box(place.x - 1, box.y, 2, box.height), box.width)
+        if tree.direction == "beside":
+            yield Border(path, at, tree.direction, Box(place.x - 1, box.y, 2, box.height), box.width)
         else:
-            yield Border(path, at, tree.way, Box(box.x, place.y - 1, box.width, 2), box.height)
+            yield Border(path, at, tree.direction, Box(box.x, place.y - 1, box.width, 2), box.height)
 
 
 def _parts(tree: Split, box: Box) -> list[Box]:
     """The boxes of the parts; the cells left over by rounding are spread evenly among them."""
-    whole = box.width if tree.way == "beside" else box.height
+    whole = box.width if tree.direction == "beside" else box.height
     total = sum(tree.shares)
     found: list[Box] = []
     begin = before = 0
     for share in tree.shares:
         before += share
         end = whole * before // total
-        if tree.way == "beside":
+        if tree.direction == "beside":
             found.append(Box(box.x + begin, box.y, end - begin, box.height))
         else:
             found.append(Box(box.x, box.y + begin, box.width, end - begin))

@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from math import gcd
 from typing import Literal, TypeAlias
 
-Way: TypeAlias = Literal["beside", "below"]
+SplitDirection: TypeAlias = Literal["beside", "below"]
 
 MIN_SHARE = 0.05
 """The minimum share of a part, however much it is shrunk."""
@@ -20,7 +20,7 @@ MIN_SHARE = 0.05
 class Split:
     """Parts from left to right (`beside`) or from top to bottom (`below`), with a share of the room for each."""
 
-    way: Way
+    direction: SplitDirection
     parts: tuple[Tree, ...]
     shares: tuple[int, ...]
 
@@ -47,23 +47,23 @@ def panes(tree: Tree) -> tuple[str, ...]:
     return (tree,) if isinstance(tree, str) else tuple(pane for part in tree.parts for pane in panes(part))
 
 
-def split(tree: Tree, pane: str, new: str, way: Way) -> Tree:
+def split(tree: Tree, pane: str, new: str, direction: SplitDirection) -> Tree:
     """Put a pane beside or below another one, which gives it half of its room; if the tree has the pane already, it
     moves.
     """
     rest = close(tree, new) if new in panes(tree) and new != pane else tree
-    return tree if rest is None or new == pane else _split(rest, pane, new, way)
+    return tree if rest is None or new == pane else _split(rest, pane, new, direction)
 
 
-def _split(tree: Tree, pane: str, new: str, way: Way) -> Tree:
+def _split(tree: Tree, pane: str, new: str, direction: SplitDirection) -> Tree:
     if isinstance(tree, str):
-        return Split(way, (tree, new), (1, 1)) if tree == pane else tree
-    if tree.way == way and pane in tree.parts:
+        return Split(direction, (tree, new), (1, 1)) if tree == pane else tree
+    if tree.direction == direction and pane in tree.parts:
         at = tree.parts.index(pane)
         shares = [2 * each for each in tree.shares]
         shares[at : at + 1] = [tree.shares[at]] * 2
-        return Split(way, (*tree.parts[: at + 1], new, *tree.parts[at + 1 :]), _reduced(shares))
-    return _each(tree, lambda part: _split(part, pane, new, way))
+        return Split(direction, (*tree.parts[: at + 1], new, *tree.parts[at + 1 :]), _reduced(shares))
+    return _each(tree, lambda part: _split(part, pane, new, direction))
 
 
 def close(tree: Tree, pane: str) -> Tree | None:
@@ -76,7 +76,7 @@ def close(tree: Tree, pane: str) -> Tree | None:
         return None
     if len(kept) == 1:
         return kept[0][0]
-    return _merged(tree.way, kept)
+    return _merged(tree.direction, kept)
 
 
 def exchange(tree: Tree, one: str, other: str) -> Tree:
@@ -85,7 +85,7 @@ def exchange(tree: Tree, one: str, other: str) -> Tree:
     return _named(tree, lambda pane: names.get(pane, pane))
 
 
-def resize(tree: Tree, pane: str, way: Way, part: float) -> Tree:
+def resize(tree: Tree, pane: str, direction: SplitDirection, part: float) -> Tree:
     """Widen (`beside`) or heighten (`below`) a pane within the innermost such split, by a fraction of that split.
 
     Its neighbour loses what it gains, down to a small minimum. A pane in no such split keeps its size.
@@ -93,9 +93,9 @@ def resize(tree: Tree, pane: str, way: Way, part: float) -> Tree:
     if isinstance(tree, str) or pane not in panes(tree):
         return tree
     at = next(index for index, each in enumerate(tree.parts) if pane in panes(each))
-    inner = resize(tree.parts[at], pane, way, part)
-    if inner != tree.parts[at] or tree.way != way:
-        return Split(tree.way, (*tree.parts[:at], inner, *tree.parts[at + 1 :]), tree.shares)
+    inner = resize(tree.parts[at], pane, direction, part)
+    if inner != tree.parts[at] or tree.direction != direction:
+        return Split(tree.direction, (*tree.parts[:at], inner, *tree.parts[at + 1 :]), tree.shares)
     return move_border(tree, at if at + 1 < len(tree.parts) else at - 1, part if at + 1 < len(tree.parts) else -part)
 
 
@@ -109,7 +109,7 @@ def move_border(tree: Split, border: int, part: float) -> Split:
     both = round(1000 * (first + second))
     shares[border] = min(max(round(1000 * grown), 1), both - 1)
     shares[border + 1] = both - shares[border]
-    return Split(tree.way, tree.parts, _reduced([max(1, each) for each in shares]))
+    return Split(tree.direction, tree.parts, _reduced([max(1, each) for each in shares]))
 
 
 def change_at(tree: Tree, path: Sequence[int], change: Callable[[Split], Tree]) -> Tree:
@@ -120,13 +120,17 @@ def change_at(tree: Tree, path: Sequence[int], change: Callable[[Split], Tree]) 
         return change(tree)
     at = path[0]
     return Split(
-        tree.way, (*tree.parts[:at], change_at(tree.parts[at], path[1:], change), *tree.parts[at + 1 :]), tree.shares
+        tree.direction,
+        (*tree.parts[:at], change_at(tree.parts[at], path[1:], change), *tree.parts[at + 1 :]),
+        tree.shares,
     )
 
 
 def even(tree: Tree) -> Tree:
     """Share all room equally."""
-    return tree if isinstance(tree, str) else Split(tree.way, tuple(map(even, tree.parts)), (1,) * len(tree.parts))
+    return (
+        tree if isinstance(tree, str) else Split(tree.direction, tuple(map(even, tree.parts)), (1,) * len(tree.parts))
+    )
 
 
 def turn(tree: Tree, pane: str) -> Tree:
@@ -134,34 +138,34 @@ def turn(tree: Tree, pane: str) -> Tree:
     if isinstance(tree, str):
         return tree
     if pane in tree.parts:
-        return Split("below" if tree.way == "beside" else "beside", tree.parts, tree.shares)
+        return Split("below" if tree.direction == "beside" else "beside", tree.parts, tree.shares)
     return _each(tree, lambda part: turn(part, pane))
 
 
 def _each(tree: Split, change: Callable[[Tree], Tree]) -> Split:
-    return Split(tree.way, tuple(map(change, tree.parts)), tree.shares)
+    return Split(tree.direction, tuple(map(change, tree.parts)), tree.shares)
 
 
 def _named(tree: Tree, name: Callable[[str], str]) -> Tree:
     return name(tree) if isinstance(tree, str) else _each(tree, lambda part: _named(part, name))
 
 
-def _merged(way: Way, kept: Sequence[tuple[Tree, int]]) -> Split:
+def _merged(direction: SplitDirection, kept: Sequence[tuple[Tree, int]]) -> Split:
     """The split with nested splits of its own direction flattened, which looks the same."""
     scale = 1
     for part, _ in kept:
-        if isinstance(part, Split) and part.way == way:
+        if isinstance(part, Split) and part.direction == direction:
             scale *= sum(part.shares)
     parts: list[Tree] = []
     shares: list[int] = []
     for part, share in kept:
-        if isinstance(part, Split) and part.way == way:
+        if isinstance(part, Split) and part.direction == direction:
             parts += part.parts
             shares += [share * scale * each // sum(part.shares) for each in part.shares]
         else:
             parts.append(part)
             shares.append(share * scale)
-    return Split(way, tuple(parts), _reduced(shares))
+    return Split(direction, tuple(parts), _reduced(shares))
 
 
 def _reduced(shares: Sequence[int]) -> tuple[int, ...]:

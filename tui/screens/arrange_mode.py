@@ -8,7 +8,7 @@ from typing import ClassVar, Protocol
 from bot_console.tui import keymap
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key, key_text
-from bot_console.tui.layout.tree import Way
+from bot_console.tui.layout.tree import SplitDirection
 from bot_console.tui.screens.help import HelpScreen
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
 from bot_console.tui.widgets.prompt.line import KEYS, Prompt, find_open_prompt
@@ -49,7 +49,7 @@ class Arranger(Protocol):
         """Swap with the pane in a direction."""
         ...
 
-    def split(self, way: Way) -> None:
+    def split(self, direction: SplitDirection) -> None:
         """Ask for a pane and put it `beside` or `below`."""
         ...
 
@@ -142,9 +142,9 @@ class ArrangeScreen(DimmedScreen):
         """Swap with the pane in a direction."""
         self._arranger.exchange(dx, dy)
 
-    def action_split(self, way: Way) -> None:
+    def action_split(self, direction: SplitDirection) -> None:
         """Put another pane beside or below."""
-        self._arranger.split(way)
+        self._arranger.split(direction)
 
     def action_put_another(self) -> None:
         """Put another pane here."""

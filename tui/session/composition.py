@@ -168,7 +168,7 @@ def host_launches(owner: socket.socket, workspaces: Sequence[Path], kept: Snapsh
     if problem := become_host(workspaces):
         print(problem, file=sys.stderr)
         return 1
-    buffer = overhear(kept) if kept is not None else None
+    buffer = start_snapshot_buffer(kept) if kept is not None else None
     host = LaunchHost(launcher_here, buffer=buffer)
     host.connect(owner, owner=True)
     serve(host)
@@ -208,10 +208,10 @@ def close_on_signals(close: Callable[[], None]) -> None:
         signal.signal(each, end)
 
 
-def overhear(size: SnapshotSize) -> SnapshotBuffer:
+def start_snapshot_buffer(size: SnapshotSize) -> SnapshotBuffer:
     """Start keeping what the nodes of this process publish and receive."""
     from bot_console.tui.console.bags.snapshot_buffer import SnapshotBuffer
 
     buffer = SnapshotBuffer(size, serialize, type_hash.text)
-    bus_of(domain()).overhear(buffer.hear)
+    bus_of(domain()).monitor(buffer.hear)
     return buffer

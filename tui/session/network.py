@@ -36,13 +36,13 @@ OTHER_DOMAINS_POLL_S = 3.0
 
 def run_network(options: AttachOptions) -> int:
     """Connect and show the console; returns 1 if the connection fails, after printing the reason."""
-    assert options.way is not None
+    assert options.network is not None
     try:
-        buses = connect(options.way)
+        buses = connect(options.network)
     except RuntimeError as error:
         print(error, file=sys.stderr)
         return 1
-    lead_children_to(options.way)
+    lead_children_to(options.network)
     choose(options.appearance.workspace)
     settings = read_settings()
     console = RosConsole(
@@ -59,7 +59,7 @@ def run_network(options: AttachOptions) -> int:
         stop_means=settings.stop_means,
         expected=settings.expected,
     )
-    message = [(Severity.INFO, OUTPUT.format(options.way, domain()))]
+    message = [(Severity.INFO, OUTPUT.format(options.network, domain()))]
 
     forget, ended = log_process_reports(console.printed, console.learn), threading.Event()
     report = partial(report_other_domains, buses.other_domains, lambda: console.graph.info, console.printed, ended)

@@ -84,7 +84,7 @@ class PaneArea(Container):
                 border.box.x <= x < border.box.x + border.box.width
                 and border.box.y <= y < border.box.y + border.box.height
             ):
-                self._dragged = border, self.shown, x if border.way == "beside" else y
+                self._dragged = border, self.shown, x if border.direction == "beside" else y
                 self._moved = 0
                 self.capture_mouse()
                 event.stop()
@@ -95,7 +95,7 @@ class PaneArea(Container):
         if self._dragged is None:
             return
         border, tree, begin = self._dragged
-        at = event.screen_x - self.region.x if border.way == "beside" else event.screen_y - self.region.y
+        at = event.screen_x - self.region.x if border.direction == "beside" else event.screen_y - self.region.y
         if at - begin == self._moved:
             return
         first, self._moved = self._moved == 0, at - begin

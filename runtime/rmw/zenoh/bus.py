@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.endpoints import (
     ClientEndpoint,
     Endpoint,
     GraphChanged,
-    Hear,
+    MessageObserver,
     NodeId,
     OnEvent,
     Payload,
@@ -41,13 +41,13 @@ SERVICE_QOS = "::,10:,:,:,,"
 FLUSH_TIMEOUT_S = 0.3
 """How long leaving or closing waits for the queue of messages that must not be dropped, in s."""
 
-Way = RemotePublisher | RemoteSubscription | RequestReceiver | RequestSender
+RemoteEnd = RemotePublisher | RemoteSubscription | RequestReceiver | RequestSender
 
 
 class Bridge(NamedTuple):
     """The session's objects for one endpoint of this process."""
 
-    way: Way
+    remote: RemoteEnd
     token: Declaration
     watched: tuple[Kind, str, Listener] | None = None
 
@@ -175,7 +175,7 @@ class ZenohBus:
                 bridged.bridges[thing] = bridge
         if bridged is None:  # the node has left meanwhile
             self._take_down(bridge)
-        elif bridge.watched and not isinstance(bridge.way, RemoteSubscription):
+        elif bridge.watched and not isinstance(bridge.remote, RemoteSubscription):
             self._watches.listen(*bridge.watched)
 
     def _with_report(self, saw: Listener) -> Listener:
@@ -191,9 +191,9 @@ class ZenohBus:
         if bridge.watched:
             self._watches.forget(*bridge.watched)
         bridge.token.undeclare()
-        bridge.way.close()
-        if isinstance(bridge.way, RemotePublisher):
-            self._own.discard(bridge.way.gid)
+        bridge.remote.close()
+        if isinstance(bridge.remote, RemotePublisher):
+            self._own.discard(bridge.remote.gid)
 
     def disown(self, thing: ServiceEndpoint | ClientEndpoint) -> None:
         """Keep a service server or client in the graph when its node leaves."""
@@ -214,11 +214,11 @@ class ZenohBus:
         if bridge:
             self._take_down(bridge)
 
-    def _bridge(self, thing: ServiceEndpoint | ClientEndpoint) -> Way | None:
+    def _bridge(self, thing: ServiceEndpoint | ClientEndpoint) -> RemoteEnd | None:
         with self._lock:
             bridged = self._nodes.get(thing.node)
             bridge = bridged.bridges.get(thing) if bridged else None
-        return bridge.way if bridge else None
+        return bridge.remote if bridge else None
 
     def request(self, client: ClientEndpoint, number: int, request: Payload) -> None:
         """Send a request to local and remote servers; it is lost if there are none."""
@@ -283,9 +283,9 @@ class ZenohBus:
         """Call `callback` on each graph change that this process sees; returns a function that removes the callback."""
         return self._local.on_graph_change(callback)
 
-    def overhear(self, hear: Hear | None) -> None:
-        """Pass what this process publishes and its subscriptions receive to `hear`; None removes the observer."""
-        self._local.overhear(hear)
+    def monitor(self, observer: MessageObserver | None) -> None:
+        """Pass what this process publishes and its subscriptions receive to `observer`; None removes the observer."""
+        self._local.monitor(observer)
 
     def published(self) -> int:
         """Total number of messages published by the current publishers of this process."""
@@ -299,7 +299,7 @@ class ZenohBus:
     def _send_again(self) -> None:
         """After a reopening, publish again what latching publishers keep, and send the requests that were held back."""
         with self._lock:
-            ways = [bridge.way for each in self._nodes.values() for bridge in each.bridges.values()]
-        for way in ways:
-            if isinstance(way, RequestSender) or (isinstance(way, RemotePublisher) and way.latching):
-                way.send_again()
+            remotes = [bridge.remote for each in self._nodes.values() for bridge in each.bridges.values()]
+        for remote in remotes:
+            if isinstance(remote, RequestSender) or (isinstance(remote, RemotePublisher) and remote.latching):
+                remote.send_again()

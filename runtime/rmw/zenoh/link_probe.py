@@ -34,7 +34,7 @@ class LinkState:
 
     to: str = ""
     """The other end, such as `tcp/robot:7447`."""
-    heard: float | None = None
+    last_answer: float | None = None
     delay: float | None = None
     lost: int = 0
     """Number of messages that were lost or found no room in a queue here, judging by gaps in their sequence numbers."""
@@ -96,4 +96,4 @@ class LinkProbe:
             self._trusted_since = now
         self._last_answer = now
         if asked >= self._trusted_since:
-            self.state = replace(self.state, heard=now, delay=now - asked)
+            self.state = replace(self.state, last_answer=now, delay=now - asked)

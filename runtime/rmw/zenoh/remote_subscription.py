@@ -125,9 +125,9 @@ class RemoteSubscription:
             self._overrun()
         queue.append((message, stamp, time.time_ns(), number, expires))
         subscription.notify()
-        hear = self._tap.hear
-        if hear is not None:
-            hear(subscription.endpoint, gid, number, stamp, payload)
+        observer = self._tap.observer
+        if observer is not None:
+            observer(subscription.endpoint, gid, number, stamp, payload)
 
     def report_unreadable(self, error: Exception) -> None:
         """Report a message that cannot be read."""

@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from helpers.processes.mesh import eventually
 from helpers.processes.two_processes import DOMAIN, two_processes
@@ -34,7 +34,7 @@ def test_request_to_a_frozen_process_ends_and_names_it(tmp_path: Path, words: tu
         place = f"tcp/127.0.0.1:{free_port()}"
         router = MeshSession(DOMAIN, Serving((place,)))
         router.watch()
-        client = open_network_session(DOMAIN, Way((place,)))
+        client = open_network_session(DOMAIN, ClientConfig((place,)))
         client.watch()
         try:
             peer.send_signal(signal.SIGSTOP)

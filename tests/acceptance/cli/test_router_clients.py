@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, entity_token, node_token
@@ -70,7 +70,7 @@ def test_program_with_a_session_exits_without_finalizing_the_interpreter(place: 
 
 def test_status_reports_the_robot_behind_the_named_router(place: str) -> None:
     assert f"nothing is running in ROS domain 0 at {place}" in run_connected(place, "status").stderr
-    session = open_network_session(0, Way((place,)))
+    session = open_network_session(0, ClientConfig((place,)))
     node = TokenNode(session.zid, 0, "", "/", "base")
     session.declare_token(node_token(0, node))
     velocity = "/cmd_vel", "geometry_msgs/msg/Twist", f"RIHS01_{'0' * 64}", "::,10:,:,:,,"

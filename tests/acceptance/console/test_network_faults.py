@@ -11,7 +11,7 @@ import pytest
 from bot_console.runtime.rmw.local import LocalBus, local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.network.network_bus import NetworkBuses
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
@@ -36,11 +36,13 @@ class FarRig(RosRig):
         self.router = Router(self.place)
         self.wire = BadLink(int(self.place.endpoints[0].rpartition(":")[2]))
         self._robot_buses: list[ZenohBus] = []
-        self._console_buses = NetworkBuses(Way((f"tcp/127.0.0.1:{self.wire.port}",)))
+        self._console_buses = NetworkBuses(ClientConfig((f"tcp/127.0.0.1:{self.wire.port}",)))
         self.words = LinkStatus(self._console_buses)
 
         def robot_bus(domain: int) -> ZenohBus:
-            self._robot_buses.append(ZenohBus(open_network_session(domain, Way(self.place.endpoints)), LocalBus()))
+            self._robot_buses.append(
+                ZenohBus(open_network_session(domain, ClientConfig(self.place.endpoints)), LocalBus())
+            )
             return self._robot_buses[-1]
 
         def sides(side: str) -> None:

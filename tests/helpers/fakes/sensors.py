@@ -52,7 +52,9 @@ class FakeSensors:
         return self.tree if self.watched else Frames()
 
 
-def status(name: str, level: Level = Level.OK, message: str = "", heard: float = 100.0, **values: str) -> Status:
+def status(
+    name: str, level: Level = Level.OK, message: str = "", last_received: float = 100.0, **values: str
+) -> Status:
     """A status that has not changed since the start."""
     reported = (ReportedStatus(1_700_000_000_000_000_000, level, message),)
-    return Status(name, level, message, "robot", tuple(values.items()), heard, reported)
+    return Status(name, level, message, "robot", tuple(values.items()), last_received, reported)

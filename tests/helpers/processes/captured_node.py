@@ -25,8 +25,8 @@ def captured(kind, topic):
 class CapturedNode:
     """An endpoint of the captured node, on a separate session."""
 
-    def __init__(self, way, kind, topic, *, qos=None, cache=0, type_name="", type_hash=""):
-        self.session = open_network_session(0, way)
+    def __init__(self, config, kind, topic, *, qos=None, cache=0, type_name="", type_hash=""):
+        self.session = open_network_session(0, config)
         parts = captured(kind, topic).split("/")
         parts[2] = self.session.zid
         parts[TYPE] = type_name or parts[TYPE]

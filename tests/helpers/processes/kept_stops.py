@@ -1,8 +1,8 @@
 """Checks that a stop holds, and that its release lasts, whatever happens; the witness is the judge.
 
-`held_through` stops a robot that a second program drives, disturbs it (a `Way` in which the stop could get lost), and
-checks that the robot stands. Then somebody else releases it, and it has to drive on through the same disturbance. The
-ways are in `ways_to_lose_stops.py`.
+`held_through` stops a robot that a second program drives, disturbs it as a `StopScenario` says, and checks that the
+robot stands. Then somebody else releases it, and it has to drive on through the same disturbance. The scenarios are in
+`ways_to_lose_stops.py`.
 """
 
 from __future__ import annotations
@@ -42,7 +42,7 @@ def unrecorded(robot: LiveRobot) -> Iterator[None]:
 
 
 @dataclass(frozen=True, kw_only=True)
-class Way:
+class StopScenario:
     """One way in which a stop could get lost.
 
     `prepare` changes the robot and yields the arguments of the console. `beside_earlier_stop` surrounds an earlier stop
@@ -59,34 +59,34 @@ class Way:
     in_background: bool = False
 
 
-def held_through(way: Way, robot: LiveRobot) -> float:
+def held_through(scenario: StopScenario, robot: LiveRobot) -> float:
     """Return how long (s) the robot moved on after the stop; raise if it moves later, or if a released stop returns."""
     with contextlib.ExitStack() as ended_last:
-        words = ended_last.enter_context(way.prepare(robot))
+        words = ended_last.enter_context(scenario.prepare(robot))
         driver = robot.second_driver()
         ended_last.callback(driver.wait)
         ended_last.callback(driver.kill)
         robot.drives()
         person = ended_last.enter_context(console(robot, words, FIRST_SCREEN))
-        with way.beside_earlier_stop(robot):
+        with scenario.beside_earlier_stop(robot):
             _stop_and_release(robot, person)
-        way.stop(robot, person)
+        scenario.stop(robot, person)
         held = time.monotonic()
         _until_rests(robot, person)
-        with way.disturb(robot, person):
+        with scenario.disturb(robot, person):
             wait(person, WATCHED)
             stands_since(robot, held)
         wait(person, WATCHED)
         went_on = stands_since(robot, held)
         release(robot)
-        with way.disturb(robot, person):
+        with scenario.disturb(robot, person):
             wait(person, WATCHED)
         wait(person, WATCHED)
         drives_after_restart(robot, person)
-        if way.releases_within:
-            way.stop(robot, person)
+        if scenario.releases_within:
+            scenario.stop(robot, person)
             _until_rests(robot, person)
-            with way.disturb(robot, person):
+            with scenario.disturb(robot, person):
                 wait(person, WATCHED)
                 drives_after_restart(robot, person, "--all")
             wait(person, WATCHED)

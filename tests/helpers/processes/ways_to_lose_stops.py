@@ -17,7 +17,7 @@ from bot_console.tui.console.parameters.history_file import History
 from emulator import last_screen, screen_of
 
 from processes.bad_link import BadLink
-from processes.kept_stops import Way, drives_after_restart, wait
+from processes.kept_stops import StopScenario, drives_after_restart, wait
 from processes.live_robot import TIMEOUT_S, LiveRobot
 from processes.losses import WATCHED, Terminal, console, is_alive
 from processes.ports import free_port
@@ -419,28 +419,28 @@ def monitor_frozen(robot: LiveRobot, person: Terminal) -> Iterator[None]:
 
 
 _far, _clocks = FarConsole(), Clocks()
-WAYS: tuple[Way, ...] = (
-    Way(name="monitor killed", disturb=instant(monitor_killed)),
-    Way(name="monitor restarted", disturb=instant(monitor_restarted)),
-    Way(name="base restarted", disturb=instant(base_restarted)),
-    Way(name="both restarted", disturb=instant(both_restarted)),
-    Way(name="both ended", disturb=instant(both_ended)),
-    Way(name="both respawned", disturb=instant(both_respawned), prepare=respawning),
-    Way(name="console killed", disturb=instant(console_killed)),
-    Way(name="console frozen", disturb=console_frozen, releases_within=True),
-    Way(name="link cut", disturb=_far.cut, prepare=_far.prepare, releases_within=True),
-    Way(name="simulator reset", disturb=instant(simulator_reset)),
-    Way(name="bag played", disturb=instant(bag_played), beside_earlier_stop=recording),
-    Way(name="clock jump", disturb=instant(_clocks.jump), prepare=_clocks.prepare),
-    Way(name="mouse flood", disturb=instant(flood), stop=press_behind_flood),
-    Way(name="key in a prompt", disturb=instant(typed_in_prompt), stop=press_on_help),
-    Way(name="unreadable store", disturb=instant(both_restarted), prepare=unreadable_stores),
-    Way(name="unreadable stop file", disturb=instant(damaged_stop_file)),
-    Way(name="stop file lost", disturb=instant(lost_stop_file)),
-    Way(name="monitor frozen", disturb=monitor_frozen, releases_within=True),
-    Way(name="undecodable text", disturb=instant(both_restarted), stop=stop_with_undecodable_text),
-    Way(name="relaunched", disturb=instant(relaunched), in_background=True),
-    Way(name="another world", disturb=instant(another_world), in_background=True),
-    Way(name="up again", disturb=instant(up_again), in_background=True),
-    Way(name="down and up", disturb=instant(down_and_up), in_background=True),
+SCENARIOS: tuple[StopScenario, ...] = (
+    StopScenario(name="monitor killed", disturb=instant(monitor_killed)),
+    StopScenario(name="monitor restarted", disturb=instant(monitor_restarted)),
+    StopScenario(name="base restarted", disturb=instant(base_restarted)),
+    StopScenario(name="both restarted", disturb=instant(both_restarted)),
+    StopScenario(name="both ended", disturb=instant(both_ended)),
+    StopScenario(name="both respawned", disturb=instant(both_respawned), prepare=respawning),
+    StopScenario(name="console killed", disturb=instant(console_killed)),
+    StopScenario(name="console frozen", disturb=console_frozen, releases_within=True),
+    StopScenario(name="link cut", disturb=_far.cut, prepare=_far.prepare, releases_within=True),
+    StopScenario(name="simulator reset", disturb=instant(simulator_reset)),
+    StopScenario(name="bag played", disturb=instant(bag_played), beside_earlier_stop=recording),
+    StopScenario(name="clock jump", disturb=instant(_clocks.jump), prepare=_clocks.prepare),
+    StopScenario(name="mouse flood", disturb=instant(flood), stop=press_behind_flood),
+    StopScenario(name="key in a prompt", disturb=instant(typed_in_prompt), stop=press_on_help),
+    StopScenario(name="unreadable store", disturb=instant(both_restarted), prepare=unreadable_stores),
+    StopScenario(name="unreadable stop file", disturb=instant(damaged_stop_file)),
+    StopScenario(name="stop file lost", disturb=instant(lost_stop_file)),
+    StopScenario(name="monitor frozen", disturb=monitor_frozen, releases_within=True),
+    StopScenario(name="undecodable text", disturb=instant(both_restarted), stop=stop_with_undecodable_text),
+    StopScenario(name="relaunched", disturb=instant(relaunched), in_background=True),
+    StopScenario(name="another world", disturb=instant(another_world), in_background=True),
+    StopScenario(name="up again", disturb=instant(up_again), in_background=True),
+    StopScenario(name="down and up", disturb=instant(down_and_up), in_background=True),
 )

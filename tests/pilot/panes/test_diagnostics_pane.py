@@ -51,7 +51,7 @@ def test_new_status_is_shown_and_silent_one_becomes_stale() -> None:
         await session.press("M", "w")
         assert "safety_monitor: velocity" not in titles(session) and "2 of 5" not in session.text()
         pane = session.pane(DiagnosticsPane)
-        session.console.sensors.info = Diagnostics((status("arm", Level.ERROR, "broken", heard=100.0),))
+        session.console.sensors.info = Diagnostics((status("arm", Level.ERROR, "broken", last_received=100.0),))
         pane.clock.now += 0.4
         pane.tick()
         assert "arm" not in titles(session), "not before the timeout"
@@ -63,7 +63,7 @@ def test_new_status_is_shown_and_silent_one_becomes_stale() -> None:
         pane.tick()
         await session.settle()
         assert "◌ STALE" in session.text() and "it was ERROR" in session.text()
-        fresh = replace(session.console.sensors.info.statuses[0], heard=pane.clock.now, level=Level.OK)
+        fresh = replace(session.console.sensors.info.statuses[0], last_received=pane.clock.now, level=Level.OK)
         session.console.sensors.info = Diagnostics((fresh,))
         pane.clock.now += 0.5
         pane.tick()

@@ -422,7 +422,7 @@ def test_a_picture_has_a_map_only_where_it_does_not_fit() -> None:
 def test_frames_of_tf2_are_received_only_while_they_are_shown() -> None:
     system = live()
     sensors = system[0].sensors
-    sensors.tree = Frames((Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, heard=100.0),))
+    sensors.tree = Frames((Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, last_received=100.0),))
 
     async def play(session: Session) -> None:
         session.pane(GraphPane).clock = Clock()
@@ -443,9 +443,9 @@ def test_frames_of_tf2_replace_the_picture() -> None:
     heard = 1000.0
     console.sensors.tree = Frames(
         (
-            Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, heard=heard, others=("map",)),
-            Frame("laser", "base", fixed=True, heard=heard),
-            Frame("odom", "map", rate=20.0, heard=heard - 4.0),
+            Frame("base", "odom", place=(1.0, 2.0, 0.0), rate=20.0, last_received=heard, others=("map",)),
+            Frame("laser", "base", fixed=True, last_received=heard),
+            Frame("odom", "map", rate=20.0, last_received=heard - 4.0),
         ),
         moving_by=("/simulator",),
         fixed_by=("/mast",),

@@ -22,9 +22,9 @@ def carried_messages() -> Iterator[list[Any]]:
         if by.topic == "/words":
             found.append((number, message))
 
-    bus_of(0).overhear(hear)
+    bus_of(0).monitor(hear)
     yield found
-    bus_of(0).overhear(None)
+    bus_of(0).monitor(None)
 
 
 def test_monitor_receives_unsubscribed_messages_and_is_not_counted(node: Any, carried_messages: list[Any]) -> None:
@@ -33,7 +33,7 @@ def test_monitor_receives_unsubscribed_messages_and_is_not_counted(node: Any, ca
     assert [(number, each.data) for number, each in carried_messages] == [(1, "to nobody")]
     assert publisher.get_subscription_count() == node.count_subscribers("/words") == 0
     assert has_receiver(publisher)
-    bus_of(0).overhear(None)
+    bus_of(0).monitor(None)
     assert not has_receiver(publisher)
     publisher.publish(String(data="again"))
     assert len(carried_messages) == 1

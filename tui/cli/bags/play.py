@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.tui.cli.bags.common import generic_types, make_node, report_unused, service_types, spin
 from bot_console.tui.cli.bags.keyboard import read_keys
 from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_time, play_problem
-from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
 from bot_console.tui.text.sanitize import sanitize
@@ -155,7 +155,7 @@ def _run(node: Node, work: Callable[[], None], stopped: threading.Event) -> str:
     def guarded() -> None:
         try:
             work()
-        except NoBag as error:
+        except BagError as error:
             problem.append(str(error))
         except Exception as error:  # the outermost frame of the thread: nobody else would report it
             problem.append(f"{type(error).__name__}: {error}")

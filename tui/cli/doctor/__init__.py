@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.rmw.zenoh.network.client import Way
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig
 from bot_console.runtime.rmw.zenoh.session import SessionError
 from bot_console.tui import __version__
-from bot_console.tui.cli.attach_options import add_network_options, network_way
+from bot_console.tui.cli.attach_options import add_network_options, network_config
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level, as_json, exit_code
 from bot_console.tui.cli.doctor.machine import machine_findings
 from bot_console.tui.cli.doctor.terminal import terminal_findings
@@ -48,8 +48,8 @@ def run(words: Sequence[str]) -> int:
     """Run all checks, and print the findings."""
     parser = _parser()
     given = parser.parse_args(words)
-    way = network_way(parser, given)
-    if given.ros and way is not None:
+    config = network_config(parser, given)
+    if given.ros and config is not None:
         parser.error("--ros and --connect exclude each other")
     if given.range and not given.ros:
         parser.error("--range needs --ros: it is the discovery range of ROS 2")
@@ -70,7 +70,7 @@ def run(words: Sequence[str]) -> int:
     if given.ros:
         _ros(given.seconds, report)
     else:
-        _zenoh(way, LISTEN_S if given.seconds is None else given.seconds, given.capture, report)
+        _zenoh(config, LISTEN_S if given.seconds is None else given.seconds, given.capture, report)
     if given.json:
         print(json.dumps(as_json(findings), indent=2))
     return exit_code(findings)
@@ -130,16 +130,16 @@ def _ros(seconds: float | None, report: Callable[[Sequence[DoctorFinding]], None
 
 
 def _zenoh(
-    way: Way | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
+    config: ClientConfig | None, seconds: float, capture: Path | None, report: Callable[[Sequence[DoctorFinding]], None]
 ) -> None:
-    if way is None and not others_take_part():
+    if config is None and not others_take_part():
         report([DoctorFinding(Level.NOTE, "graph", "no bot-console system is running in this ROS domain")])
         return
     install()
     from bot_console.tui.cli.doctor.system import examine
 
     try:
-        found = examine(way, seconds, capture, f"bot-console {__version__}")
+        found = examine(config, seconds, capture, f"bot-console {__version__}")
     except (SessionError, RuntimeError) as error:
         found = [DoctorFinding(Level.FAIL, "link", str(error))]
     except OSError as error:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from bot_console.runtime.rmw.zenoh.domain.mesh import open_session
 from bot_console.runtime.rmw.zenoh.domain.roll_call import await_answers
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session, with_environment
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session, with_environment
 from bot_console.runtime.rmw.zenoh.session import Session
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.cli.doctor.graph_checks import node_findings
@@ -21,25 +21,25 @@ FAR_MS = 300
 PROBES = 3
 
 
-def examine(way: Way | None, seconds: float, capture: Path | None, made_with: str) -> list[DoctorFinding]:
+def examine(config: ClientConfig | None, seconds: float, capture: Path | None, made_with: str) -> list[DoctorFinding]:
     """Check the link, the wire and the nodes; raises `SessionError`, and `OSError` if the capture cannot be written."""
-    session = open_session(domain()) if way is None else open_network_session(domain(), with_environment(way))
+    session = open_session(domain()) if config is None else open_network_session(domain(), with_environment(config))
     try:
         await_answers(session, session.timeout_s)
         delay = answer_time(session)
         wire = watch_wire(session, seconds)
     finally:
         session.close()
-    findings = [] if way is None else [link_finding(str(way), delay)]
+    findings = [] if config is None else [link_finding(str(config), delay)]
     findings += wire_findings(wire, delay or 0.0)
     if capture is not None:
         capture.write_text(json.dumps(to_capture(wire, [made_with]), indent=1) + "\n", encoding="utf-8")
         text = f"{len(wire.tokens)} tokens and {sum(map(len, wire.samples.values()))} attachments are in {capture}"
         findings.append(DoctorFinding(Level.OK, "capture", text))
-    if way is None:
+    if config is None:
         take_part()
     else:
-        connect(way)
+        connect(config)
     return [*findings, *node_findings(_can_learn)]
 
 

@@ -28,7 +28,7 @@ from bot_console.tui.session.embedded.domain import (
     isolate_from_domain,
     report_of_other_start,
     robot_claim,
-    robot_there,
+    running_robot_nodes,
     take_part,
     unusable_domain,
     why_no_robot,
@@ -133,7 +133,9 @@ def _join_domain(options: Options) -> None:
     elif not options.launch and is_in_range():
         claim = robot_claim()
         atexit.register(claim.release)
-        if why := why_no_robot(claim.wait_for_robot(robot_there, report_of_other_start), options.launch_arguments):
+        if why := why_no_robot(
+            claim.wait_for_robot(running_robot_nodes, report_of_other_start), options.launch_arguments
+        ):
             claim.release()
             isolate_from_domain()
             problem = f"{why}; so this one runs in isolation"

@@ -34,7 +34,7 @@ from bot_console.tui.session.embedded.domain import (
     others_take_part,
     report_of_other_start,
     robot_claim,
-    robot_there,
+    running_robot_nodes,
     take_part,
     why_no_robot,
 )
@@ -139,7 +139,7 @@ def up(words: Sequence[str]) -> int:
 def _robot_or_system() -> list[str]:
     """The robot in the domain, or the background system that is starting one; for `RobotClaim.wait_for_robot`."""
     there = _running_system()
-    return [there.describe()] if there else robot_there()
+    return [there.describe()] if there else running_robot_nodes()
 
 
 def _wait_until_up(
@@ -147,7 +147,7 @@ def _wait_until_up(
 ) -> int:
     """Wait until the robot of a started system, or what it launches, is visible; print how to continue."""
     deadline = time.monotonic() + START_TIMEOUT_S
-    is_up = partial(_accepts_consoles, process.pid) if launched else robot_there
+    is_up = partial(_accepts_consoles, process.pid) if launched else running_robot_nodes
     seen: object = False
     try:
         while process.poll() is None and not (seen := is_up()) and time.monotonic() < deadline:
@@ -254,7 +254,7 @@ def down(words: Sequence[str]) -> int:
     if there is None:
         print(f"no system is running in the background of ROS domain {domain()}", file=sys.stderr)
         return 1
-    if robot_there():
+    if running_robot_nodes():
         _stop_robot()
     for number in (signal.SIGTERM, getattr(signal, "SIGKILL", signal.SIGTERM)):
         with contextlib.suppress(ProcessLookupError):
@@ -289,7 +289,7 @@ def status(words: Sequence[str]) -> int:
         return 1
     routers = named_routers()
     where = f"ROS domain {domain()}" + (f" at {', '.join(routers)}" if routers else "")
-    there, robot = None if routers else _running_system(), robot_there()
+    there, robot = None if routers else _running_system(), running_robot_nodes()
     if there:
         print(f"running in {where}: {there.describe()}")
     if robot:

@@ -13,7 +13,7 @@ from bot_console.tui.cli.bags import convert, info, play, record
 from bot_console.tui.cli.bags.common import generic_types, join_domain, named_folder
 from bot_console.tui.cli.bags.play_arguments import ON_MACHINE, add_burst_arguments, add_play_arguments
 from bot_console.tui.cli.bags.record_arguments import add_record_arguments
-from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.missing_packages import MissingPackageError
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.files.save_file import NotSaved
@@ -30,7 +30,7 @@ def run(words: Sequence[str]) -> int:
         return 1
     try:
         return given.run(given)
-    except (MissingPackageError, NoBag, NotSaved) as error:
+    except (MissingPackageError, BagError, NotSaved) as error:
         print(sanitize(str(error)), file=sys.stderr)
         return 1
     except KeyboardInterrupt:  # before there was a node that handles it

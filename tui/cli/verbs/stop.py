@@ -88,7 +88,7 @@ def ask(
             link.repeat()
             reached.hear()
             left = not link.info.confirmed if verb == "stop" else _to_release(link.info, everybody)
-            done = link.info.locks > 0 and link.heard and not left
+            done = link.info.locks > 0 and link.has_reported and not left
     return done, link.info
 
 
@@ -100,12 +100,12 @@ def holders(to_find: float = 1.0, to_hear: float = HOLDER_TIMEOUT_S) -> list[str
     install()
     with ReachedStop("_bot_console_status") as reached:
         link, begun = reached.link, time.monotonic()
-        while not (link.info.locks and link.heard):
+        while not (link.info.locks and link.has_reported):
             if time.monotonic() - begun > (to_hear if link.info.locks else to_find):
                 break
             reached.follow()
             reached.hear()
-    return _holder_lines(link.info) if link.heard else None
+    return _holder_lines(link.info) if link.has_reported else None
 
 
 def _holder_lines(info: StopInfo) -> list[str]:

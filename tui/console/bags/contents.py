@@ -8,7 +8,7 @@ from collections.abc import Callable, Iterator
 from types import MappingProxyType
 from typing import Any
 
-from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
@@ -33,7 +33,7 @@ LOG, EVENTS = "rcl_interfaces/msg/Log", "rcl_interfaces/msg/ParameterEvent"
 
 
 class Contents:
-    """The messages of a bag, in memory. Raises `NoBag` if it cannot be read."""
+    """The messages of a bag, in memory. Raises `BagError` if it cannot be read."""
 
     def __init__(self, bag: Bag) -> None:
         self.metadata = bag.metadata
@@ -49,7 +49,7 @@ class Contents:
         self._messages: dict[str, list[tuple[int, bytes]]] = {name: [] for name in bag.metadata.topics}
         try:
             self._read(bag)
-        except NoBag as error:
+        except BagError as error:
             if not any(self._messages.values()):
                 raise
             self.damage = str(error)

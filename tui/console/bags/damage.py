@@ -25,38 +25,38 @@ DAMAGED = (
 """Exceptions besides `McapError` that the libraries raise when lengths and offsets in a damaged file are wrong."""
 
 
-class NoBag(ValueError):
+class BagError(ValueError):
     """A path that cannot be read as a bag; the message says which path and why."""
 
 
 @contextmanager
 def reading_errors(path: Path, where: Callable[[], str] = str) -> Generator[None]:
-    """Convert exceptions raised while reading `path` to `NoBag`; their messages say `where` the reader was."""
+    """Convert exceptions raised while reading `path` to `BagError`; their messages say `where` the reader was."""
     from mcap.exceptions import McapError
     from zstandard import ZstdError
 
     try:
         yield
-    except NoBag:
+    except BagError:
         raise
     except OSError as error:
-        raise NoBag(f"{path}: {error.strerror or error}") from None
+        raise BagError(f"{path}: {error.strerror or error}") from None
     except TooLarge as error:
-        raise NoBag(f"{path}{where()}: {error}") from None
+        raise BagError(f"{path}{where()}: {error}") from None
     except (McapError, ZstdError, *DAMAGED) as error:
-        raise NoBag(f"{path} is damaged{where()}: {error or type(error).__name__}") from None
+        raise BagError(f"{path} is damaged{where()}: {error or type(error).__name__}") from None
 
 
 def repair(path: Path, shown: Path) -> str:
     """Complete an unfinished file, which messages call `shown`.
 
-    Returns a description of the repair, or an empty text if the file was complete. Raises `NoBag`.
+    Returns a description of the repair, or an empty text if the file was complete. Raises `BagError`.
     """
     from bot_console.tui.console.bags.mcap_records import MAGIC
 
     with reading_errors(shown), path.open("rb") as file:
         if file.read(len(MAGIC)) != MAGIC:
-            raise NoBag(f"{shown}: not an MCAP file")
+            raise BagError(f"{shown}: not an MCAP file")
         size = file.seek(0, os.SEEK_END)
         file.seek(max(len(MAGIC), size - len(MAGIC)))
         if file.read() == MAGIC:
@@ -73,7 +73,7 @@ def repair(path: Path, shown: Path) -> str:
             beside.replace(path)
         except OSError as error:
             beside.unlink(missing_ok=True)
-            raise NoBag(f"{shown} has no end, and cannot be given one: {error.strerror or error}") from None
+            raise BagError(f"{shown} has no end, and cannot be given one: {error.strerror or error}") from None
     return done
 
 

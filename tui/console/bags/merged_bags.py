@@ -31,5 +31,5 @@ class MergedBags:
         return (min(each[0] for each in spans), max(each[1] for each in spans)) if spans else (0, 0)
 
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
-        """The messages received since a time (ns since the epoch), in order; raises `NoBag` on damaged data."""
+        """The messages received since a time (ns since the epoch), in order; raises `BagError` on damaged data."""
         return heapq.merge(*(bag.messages(topics, begin) for bag in self._bags), key=lambda entry: entry.received)

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, cast
 
 import yaml
 from bot_console.tui.console.bags.compression import ZSTD, unpack_file, unpack_message
-from bot_console.tui.console.bags.damage import NoBag, reading_errors, repair
+from bot_console.tui.console.bags.damage import BagError, reading_errors, repair
 from bot_console.tui.console.bags.metadata import FILE, FilePart, Metadata, Topic
 from bot_console.tui.console.bags.missing_packages import check
 from bot_console.tui.console.bags.sqlite_file import SqliteFile
@@ -47,7 +47,7 @@ class Bag:
     def __init__(self, path: Path, *, listed: bool = True) -> None:
         """Open the files that the metadata lists or, without `listed`, all bag files in the folder.
 
-        Raises `NoBag`, and `MissingPackageError` without `mcap`.
+        Raises `BagError`, and `MissingPackageError` without `mcap`.
         """
         check()
         self.path = path
@@ -66,7 +66,7 @@ class Bag:
     def messages(self, topics: Collection[str] | None = None, begin: int = 0) -> Iterator[Entry]:
         """All messages received since a time (ns since the epoch), in order of reception.
 
-        Raises `NoBag` on reaching damaged data.
+        Raises `BagError` on reaching damaged data.
         """
         found = (_messages(file, contents, topics, begin) for file, contents in self._opened)
         return heapq.merge(*found, key=lambda entry: entry.received)
@@ -104,7 +104,9 @@ class Bag:
             with plain.open("rb") as opened:
                 begin = opened.read(len(SQLITE))
             if begin.startswith(ROS1):
-                raise NoBag(f"{file} is a bag of ROS 1; `rosbags-convert` of the package rosbags makes it one of ROS 2")
+                raise BagError(
+                    f"{file} is a bag of ROS 1; `rosbags-convert` of the package rosbags makes it one of ROS 2"
+                )
             if begin == SQLITE or plain.suffix == ".db3":
                 return SqliteFile(plain)
             if done := repair(plain, file):
@@ -120,7 +122,7 @@ class Bag:
             part.count += topic.count
         for stamp in (contents.begin, contents.end) if part.count else ():
             if not 0 <= stamp <= LATEST_NS:
-                raise NoBag(f"{file} is damaged: a message is dated {stamp} ns since 1970")
+                raise BagError(f"{file} is damaged: a message is dated {stamp} ns since 1970")
             part.include(stamp)
         self.metadata.files.append(part)
 
@@ -129,10 +131,10 @@ def _files(path: Path, about: Mapping[str, Any]) -> list[Path]:
     if path.is_file():
         return [path]
     if not path.is_dir():
-        raise NoBag(f"{path}: no such bag")
+        raise BagError(f"{path}: no such bag")
     compression = str(about.get("compression_format") or "")
     if compression not in ("", "none", "zstd"):
-        raise NoBag(f"{path} is compressed with {compression}, which cannot be unpacked here; only zstd can")
+        raise BagError(f"{path} is compressed with {compression}, which cannot be unpacked here; only zstd can")
     named = about.get("relative_file_paths")
     # earlier versions of rosbag2 wrote the bag's folder as well; a file outside of it is never read
     names = [Path(str(each)).name for each in cast("list[Any]", named)] if isinstance(named, list) else []
@@ -140,7 +142,7 @@ def _files(path: Path, about: Mapping[str, Any]) -> list[Path]:
     found = [there[name] for name in names if name in there]
     found = found or sorted(each for pattern in PATTERNS for each in path.glob(pattern))
     if not found:
-        raise NoBag(f"{path}: the folder contains no .mcap and no .db3 file")
+        raise BagError(f"{path}: the folder contains no .mcap and no .db3 file")
     return found
 
 

@@ -30,7 +30,7 @@ class ReportedStop:
 class LockState:
     """The last report of one lock; the defaults stand for a lock that has not reported yet."""
 
-    heard: bool = False
+    has_reported: bool = False
     """Whether it has reported its state."""
     locked: bool = False
     stops: tuple[ReportedStop, ...] = ()
@@ -51,7 +51,7 @@ class LockState:
             stops = [ReportedStop("", "", values.get("holder", ""), values.get("reason", ""))]
         released = {str(row[0]): str(row[1]) for row in _rows(values.get("released")) if len(row) >= 2}
         return cls(
-            heard="locked" in values,
+            has_reported="locked" in values,
             locked=locked,
             stops=tuple(stops),
             released=released if "challenge" in values else None,

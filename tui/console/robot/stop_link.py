@@ -173,14 +173,14 @@ class StopLink:
         if state.holds(id, self._key):
             self._acknowledged[topic, id] = state.instance
             return False
-        return state.heard and self._acknowledged.get((topic, id)) == state.instance
+        return state.has_reported and self._acknowledged.get((topic, id)) == state.instance
 
     def _refresh(self) -> None:
         states = [self._states.get(each, LockState()) for each in list(self._watching)]
         held = bool(states) and all(each.locked for each in states)
         confirmed = held and all(state.holds(id, self._key) for state in states for id in self._requested)
         confirmed = confirmed and not self._silent_locks()
-        if states and all(each.heard and self._has_released(each) for each in states):
+        if states and all(each.has_reported and self._has_released(each) for each in states):
             self._releasing = frozenset()
         known = {each.id: each for state in states for each in state.stops}
         stops = tuple(
@@ -305,7 +305,7 @@ class StopLink:
         return bool(self._releasing)
 
     @property
-    def heard(self) -> bool:
+    def has_reported(self) -> bool:
         """Whether every lock that was found has reported its state."""
         return all(each in self._states for each in list(self._watching))
 

@@ -41,14 +41,14 @@ class Status:
     message: str = ""
     hardware: str = ""
     values: tuple[tuple[str, str], ...] = ()
-    heard: float = 0.0
+    last_received: float = 0.0
     """When it was last received, in s of a monotonic clock."""
     history: tuple[ReportedStatus, ...] = ()
     """Its past changes, newest last."""
 
     def now(self, clock: float) -> Level:
         """The level, or stale if nothing has been received for too long."""
-        return Level.STALE if clock - self.heard > STALE_AFTER_S else self.level
+        return Level.STALE if clock - self.last_received > STALE_AFTER_S else self.level
 
 
 @dataclass(frozen=True, slots=True)

@@ -54,14 +54,14 @@ class DiagnosticsWatch:
 
     def take(self, message: DiagnosticArray) -> None:
         """Process a message of a diagnostics topic."""
-        stamp, heard = time.time_ns(), self._clock()
+        stamp, last_received = time.time_ns(), self._clock()
         found = dict(self._statuses)
         for each in message.status:
             before = found.get(each.name)
             if before is None and len(found) >= MAX_NAMES:
                 self._dropped += 1
             else:
-                found[each.name] = _status(each, before, stamp, heard)
+                found[each.name] = _status(each, before, stamp, last_received)
         self._statuses = found
         self._report()
 
@@ -74,13 +74,13 @@ class DiagnosticsWatch:
         return self._info
 
 
-def _status(new: DiagnosticStatus, before: Status | None, stamp: int, heard: float) -> Status:
+def _status(new: DiagnosticStatus, before: Status | None, stamp: int, last_received: float) -> Status:
     level = _level(new.level)
     history = before.history if before else ()
     if not history or history[-1].level is not level or (level is not Level.OK and history[-1].message != new.message):
         history = (*history, ReportedStatus(stamp, level, str(new.message)))[-MAX_CHANGES_PER_NAME:]
     values = tuple((str(each.key), str(each.value)) for each in new.values)
-    return Status(str(new.name), level, str(new.message), str(new.hardware_id), values, heard, history)
+    return Status(str(new.name), level, str(new.message), str(new.hardware_id), values, last_received, history)
 
 
 def _level(code: Any) -> Level:

@@ -21,7 +21,7 @@ class Frame:
     turn: tuple[float, float, float] = (0.0, 0.0, 0.0)
     rate: float | None = None
     """The rate (Hz) at which it is published; None until that is known."""
-    heard: float = 0.0
+    last_received: float = 0.0
     """When it was last received, in s of a monotonic clock."""
     late: float | None = None
     """The age (s) of the transform on reception, by its own stamp; None if the clocks differ."""
@@ -31,7 +31,7 @@ class Frame:
     def silent(self, clock: float) -> bool:
         """Whether this is a moving frame that has not been published for too long."""
         timeout_s = max(QUIET_S, 3.0 / self.rate if self.rate else 0.0)
-        return not self.fixed and clock - self.heard > timeout_s
+        return not self.fixed and clock - self.last_received > timeout_s
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,7 +79,7 @@ def findings(info: Frames, clock: float) -> Iterator[tuple[str, str]]:
             reported.update(loop)
             yield each.name, f"{' in '.join((*loop, loop[0]))}: a loop, so nothing can be looked up in it"
         if each.silent(clock):
-            yield each.name, f"{each.name} was last published {clock - each.heard:.0f} s ago"
+            yield each.name, f"{each.name} was last published {clock - each.last_received:.0f} s ago"
     trees = roots(parents)
     if len(trees) > 1:
         yield trees[1], f"{len(trees)} separate trees: {', '.join(trees)}"

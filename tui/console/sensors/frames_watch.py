@@ -42,7 +42,7 @@ class _FrameState:
 
     transform: TransformStamped
     fixed: bool
-    heard: float
+    last_received: float
     late: float
     count: int = 0
     since: float = 0.0
@@ -119,7 +119,7 @@ class FramesWatch:
                     self._dropped += 1
                     continue
                 seen = self._seen[name] = _FrameState(each, fixed, now, 0.0, since=now)
-            seen.transform, seen.fixed, seen.heard = each, fixed, now
+            seen.transform, seen.fixed, seen.last_received = each, fixed, now
             seen.late = wall - stamp_s
             seen.count += 1
             seen.stamps[parent] = stamp_s
@@ -143,7 +143,11 @@ def _frame(name: str, seen: _FrameState, now: float) -> Frame:
         seen.rate, seen.count = seen.count / passed, 0
     move, q = seen.transform.transform.translation, seen.transform.transform.rotation
     parent = seen.transform.header.frame_id.lstrip("/")
-    others = (each for each, heard in tuple(seen.parents.items()) if each != parent and now - heard < OTHER_PARENT_S)
+    others = (
+        each
+        for each, last_received in tuple(seen.parents.items())
+        if each != parent and now - last_received < OTHER_PARENT_S
+    )
     return Frame(
         name,
         parent,
@@ -151,7 +155,7 @@ def _frame(name: str, seen: _FrameState, now: float) -> Frame:
         (move.x, move.y, move.z),
         _angles(q.x, q.y, q.z, q.w),
         None if seen.fixed else seen.rate,
-        seen.heard,
+        seen.last_received,
         seen.late if not seen.fixed and abs(seen.late) < SAME_CLOCK_S else None,
         tuple(sorted(others)),
     )

@@ -102,7 +102,7 @@ class DiagnosticsPane(ListPane):
         every = self._info.statuses
         passing = [each for each in every if not self._query.terms or matches(each, self._query)]
         now = self.clock()
-        self._due = min((each.heard + int(now - each.heard) + 1 for each in every), default=math.inf)
+        self._due = min((each.last_received + int(now - each.last_received) + 1 for each in every), default=math.inf)
         self._list.exchange(rows(passing, now, self._folded, bad_only=self._bad_only))
         shown = sum(not self._bad_only or each.now(now) is not Level.OK for each in passing)
         more = f"{self._info.dropped} more names not kept" if self._info.dropped else ""
@@ -184,7 +184,7 @@ class DiagnosticsPane(ListPane):
 
 def sections(status: Status, now: float) -> list[Section]:
     """The message of a status, its values, and its history, newest first."""
-    level, age = status.now(now), int(now - status.heard)
+    level, age = status.now(now), int(now - status.last_received)
     head = [f"{LEVEL_STYLES[level][0]} {level.name}  {status.message}"]
     if level is Level.STALE and status.level is not level:
         head.append(f"silent for {counted(age, 'second')}; it was {status.level.name}")

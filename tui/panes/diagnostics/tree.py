@@ -68,7 +68,7 @@ def _add(found: list[Row], above: _Part, path: str, depth: int, now: float, fold
         below = every[1:] if part.status else every
         level = max((each.now(now) for each in every), key=lambda each: each.weight)
         bad = sum(each.now(now) is not Level.OK for each in below)
-        age = now - (part.status.heard if part.status else min(each.heard for each in every))
+        age = now - (part.status.last_received if part.status else min(each.last_received for each in every))
         closed = bool(part.parts) and own in folded
         message = part.status.message if part.status else ""
         found.append(Row(own, title, depth, level, part.status, message, max(0, int(age)), len(below), bad, closed))

@@ -41,7 +41,7 @@ def rows(info: Frames, clock: float, query: Query) -> list[FrameRow]:
             return
         seen.add(name)
         by = ", ".join(info.publishers(frame)) if frame else ""
-        age = clock - frame.heard if frame and not frame.fixed else None
+        age = clock - frame.last_received if frame and not frame.fixed else None
         found.append(FrameRow(name, depth, frame, by, wrong.get(name, ""), age))
         for each in below.get(name, ()):
             add(each.name, depth + 1, each)
@@ -113,6 +113,6 @@ def facts(row: FrameRow, info: Frames, clock: float) -> list[Section]:
 
 def _publishing_facts(frame: Frame, clock: float) -> Iterator[str]:
     yield f"{frame.rate:.1f} times a second" if frame.rate is not None else "rate not known yet"
-    yield f"{clock - frame.heard:.1f} s ago"
+    yield f"{clock - frame.last_received:.1f} s ago"
     if frame.late is not None:
         yield f"{frame.late * 1000:.0f} ms old on arrival, by its stamp"

@@ -133,7 +133,7 @@ def line_in_debugger(pid: int) -> str | None:
     return debugger_line(os.path.join(base_folder(), str(domain())), pid)
 
 
-def robot_there() -> list[str]:
+def running_robot_nodes() -> list[str]:
     """The nodes of other processes that form a robot: they obey velocities, or publish scans or odometry.
 
     Tools and consoles, whose names begin with an underscore, only watch the commands to a robot and do not count. Call
@@ -172,8 +172,8 @@ def robot_claim() -> RobotClaim:
 def same_names_there(arguments: Mapping[str, str]) -> list[str]:
     """The nodes of other processes that have the names of nodes in our system, launched with these arguments.
 
-    The parameters, logs and commands of two nodes with the same name cannot be told apart. As for `robot_there`, call
-    this after `take_part` and before anything runs in this process.
+    The parameters, logs and commands of two nodes with the same name cannot be told apart. As for
+    `running_robot_nodes`, call this after `take_part` and before anything runs in this process.
     """
     from bot_console.tui.session.embedded.workspaces import NAVIGATOR, SYSTEM_NODES
 
@@ -184,7 +184,7 @@ def same_names_there(arguments: Mapping[str, str]) -> list[str]:
 def why_no_robot(robot: Sequence[str], arguments: Mapping[str, str]) -> str:
     """Why our system, launched with these arguments, must not join this domain, in one line; empty if it may.
 
-    `robot` contains the nodes of a running robot. Call this when `robot_there` may be called.
+    `robot` contains the nodes of a running robot. Call this when `running_robot_nodes` may be called.
     """
     if robot:
         return f"a robot is already running in ROS domain {domain()}: {', '.join(robot)}"

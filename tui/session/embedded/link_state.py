@@ -31,7 +31,7 @@ def link_info(state: LinkState, now: float) -> LinkInfo:
     """The state of the link at a monotonic time (s); delays above 20 ms are rounded to 10 ms so that the display is
     calm.
     """
-    silent_s = 0.0 if state.heard is None else now - state.heard
+    silent_s = 0.0 if state.last_answer is None else now - state.last_answer
     delay = None if state.delay is None else max(1, round(state.delay * 1000))
     if delay is not None and delay > 20:
         delay = round(delay, -1)

@@ -26,7 +26,7 @@ QUERY_TIMEOUT_MS = 600_000
 
 
 @dataclass(frozen=True)
-class Way:
+class ClientConfig:
     """How to reach a robot: its router's endpoints, such as `tcp/robot:7447`, and the TLS files."""
 
     endpoints: tuple[str, ...] = ()
@@ -42,8 +42,8 @@ class Way:
         return ", ".join(self.endpoints) or self.file
 
 
-def with_environment(way: Way) -> Way:
-    """Return `way` with the values of rmw_zenoh's environment variables; raises `SessionError` if one is invalid."""
+def with_environment(config: ClientConfig) -> ClientConfig:
+    """Return `config` with the values of rmw_zenoh's environment variables; raises `SessionError` if one is invalid."""
     file, override = os.environ.get(CONFIG_VARIABLE, ""), os.environ.get(OVERRIDE_VARIABLE, "")
     if file and not os.path.isfile(file):
         raise SessionError(f"there is no file {file}, which {CONFIG_VARIABLE} names")
@@ -53,23 +53,23 @@ def with_environment(way: Way) -> Way:
         if not (path.strip() and sign and value.strip()):
             raise SessionError(f"{OVERRIDE_VARIABLE} is to be `path=value;path=value`, not {each!r}")
         pairs.append((path.strip(), value.strip()))
-    return replace(way, file=file, override=tuple(pairs))
+    return replace(config, file=file, override=tuple(pairs))
 
 
-def endpoints_of(way: Way) -> Sequence[str]:
-    """Return the endpoints that a client connects to, whether given in `way` or in its configuration file."""
-    return way.endpoints or (endpoints_of_file(way.file, way.override) if way.file else ())
+def endpoints_of(config: ClientConfig) -> Sequence[str]:
+    """Return the endpoints that a client connects to, whether given in `config` or in its configuration file."""
+    return config.endpoints or (endpoints_of_file(config.file, config.override) if config.file else ())
 
 
-def client_settings(zid: str, way: Way) -> dict[str, object]:
+def client_settings(zid: str, config: ClientConfig) -> dict[str, object]:
     """Return a client's settings. It drops at once what a full link cannot take: nothing waits for the network."""
     connect: dict[str, object] = {
-        "timeout_ms": round(way.timeout_s * 1000),
+        "timeout_ms": round(config.timeout_s * 1000),
         "exit_on_failure": True,
         "retry": {"period_init_ms": 250, "period_max_ms": 1000, "period_increase_factor": 2},
     }
-    if way.endpoints:
-        connect["endpoints"] = list(way.endpoints)
+    if config.endpoints:
+        connect["endpoints"] = list(config.endpoints)
     return {
         "mode": "client",
         "id": zid,
@@ -79,23 +79,23 @@ def client_settings(zid: str, way: Way) -> dict[str, object]:
         "timestamping": {"enabled": True},
         "qos": history_rules(),
         "queries_default_timeout": QUERY_TIMEOUT_MS,
-        "transport": {"shared_memory": {"enabled": False}, "link": {"tls": way.tls.as_client()}},
+        "transport": {"shared_memory": {"enabled": False}, "link": {"tls": config.tls.as_client()}},
     }
 
 
 class NetworkSession(Session):
     """A client of a router; it reconnects by itself when the router or the link comes back."""
 
-    def __init__(self, domain: int, way: Way) -> None:
+    def __init__(self, domain: int, config: ClientConfig) -> None:
         super().__init__(domain)
-        self.way = way
+        self.config = config
         try:
-            self._open(client_settings(self.zid, way), way.file, way.override)
+            self._open(client_settings(self.zid, config), config.file, config.override)
         except SettingsError:
             raise
         except SessionError as error:
-            reason = UNANSWERED.format(way, way.timeout_s) if str(error).endswith("Timeout!") else str(error)
-            raise SessionError(why_unreachable(way.endpoints, way.tls) or reason) from None
+            reason = UNANSWERED.format(config, config.timeout_s) if str(error).endswith("Timeout!") else str(error)
+            raise SessionError(why_unreachable(config.endpoints, config.tls) or reason) from None
         self.declare_token(ROLL_CALL_KEY + self.zid[:8])
         self._probe: LinkProbe | None = None
         self._stopped: StoppedBehindRouter | None = None
@@ -106,7 +106,7 @@ class NetworkSession(Session):
 
     def watch(self) -> None:
         """Probe the link to the router repeatedly, and track which processes it reports as frozen or in a debugger."""
-        self._probe = self._probe or LinkProbe(self.ping, str(self.way))
+        self._probe = self._probe or LinkProbe(self.ping, str(self.config))
         self._stopped = self._stopped or StoppedBehindRouter(self)
 
     def stopped(self) -> Mapping[str, int]:
@@ -124,7 +124,7 @@ class NetworkSession(Session):
     @property
     def link(self) -> LinkState:
         """The state of the link; unknown unless `watch` was called."""
-        state = self._probe.state if self._probe else LinkState(str(self.way))
+        state = self._probe.state if self._probe else LinkState(str(self.config))
         return replace(state, lost=self.lost)
 
     def close(self) -> None:
@@ -134,6 +134,6 @@ class NetworkSession(Session):
         super().close()
 
 
-def open_network_session(domain: int, way: Way) -> NetworkSession:
+def open_network_session(domain: int, config: ClientConfig) -> NetworkSession:
     """Connect to a robot's router; raises `SessionError`, whose message says why that failed and how to fix it."""
-    return NetworkSession(domain, way)
+    return NetworkSession(domain, config)

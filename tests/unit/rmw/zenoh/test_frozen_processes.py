@@ -11,7 +11,7 @@ import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.domain.debugger_note import SUFFIX
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.network.frozen_processes import DEBUGGED_TOKEN, TOKEN, StoppedBehindRouter
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
@@ -27,7 +27,7 @@ def test_frozen_or_debugged_process_is_reported_until_it_continues():
     with members(1, "unwatched") as [member]:
         router = MeshSession(0, Serving((place,)))
         router.watch()
-        client = open_network_session(0, Way((place,)))
+        client = open_network_session(0, ClientConfig((place,)))
         note = Path(router.socket.path).with_name(f"{member.process.pid}{SUFFIX}")
         try:
             assert client.stopped() == {}

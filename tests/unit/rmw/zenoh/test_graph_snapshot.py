@@ -12,7 +12,7 @@ from bot_console.runtime.rmw.zenoh.declarations import TokenWatch
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession, open_session
 from bot_console.runtime.rmw.zenoh.graph_cache import Watches
 from bot_console.runtime.rmw.zenoh.graph_snapshot import watch_all
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.session import ROLL_CALL_KEY
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.whole_graph import WholeGraph
@@ -70,7 +70,7 @@ def test_snapshot_is_complete_at_once_and_leaves_with_its_process(socket_folder,
 
 def test_clients_behind_a_router_of_the_mesh_appear_and_leave(socket_folder):
     place = f"tcp/127.0.0.1:{free_port()}"
-    router, client = MeshSession(0, Serving((place,))), open_network_session(0, Way((place,)))
+    router, client = MeshSession(0, Serving((place,))), open_network_session(0, ClientConfig((place,)))
     show(client, MANY)
     watcher = wait_patiently(open_session(0))
     assert eventually(lambda: router.zid in watcher.linked())

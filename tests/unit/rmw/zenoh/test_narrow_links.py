@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-from bot_console.runtime.rmw.zenoh.network.client import NetworkSession, Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, NetworkSession, open_network_session
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from processes.bad_link import BadLink
 from processes.ports import free_port
@@ -35,7 +35,7 @@ class System:
 
     def attach(self) -> NetworkSession:
         """Connect a console that subscribes to everything."""
-        console = open_network_session(0, Way((f"tcp/127.0.0.1:{self.link.port}",), timeout_s=TIMEOUT_S))
+        console = open_network_session(0, ClientConfig((f"tcp/127.0.0.1:{self.link.port}",), timeout_s=TIMEOUT_S))
         for key, messages in self.heard.items():
             console.declare_subscriber(
                 key, lambda data, _, to=messages: to.append(data), history=1 if key == MAP else None

@@ -12,7 +12,12 @@ import pytest
 from bot_console.runtime.process import on_notice
 from bot_console.runtime.rmw.zenoh.link_probe import LinkProbe
 from bot_console.runtime.rmw.zenoh.network import reachability
-from bot_console.runtime.rmw.zenoh.network.client import Way, client_settings, open_network_session, with_environment
+from bot_console.runtime.rmw.zenoh.network.client import (
+    ClientConfig,
+    client_settings,
+    open_network_session,
+    with_environment,
+)
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls, place_of, why_unreachable
 from bot_console.runtime.rmw.zenoh.network.router import Router, router_settings
 from bot_console.runtime.rmw.zenoh.session import SessionError
@@ -41,15 +46,15 @@ def secure(files):
     router.close()
 
 
-def refusal(way: Way) -> str:
+def refusal(config: ClientConfig) -> str:
     with pytest.raises(SessionError) as refused:
-        open_network_session(0, way)
+        open_network_session(0, config)
     return str(refused.value)
 
 
 def test_mutual_tls_connects(secure, files):
     own, _ = files
-    session = open_network_session(0, Way((secure,), Tls(own.ca, own.certificate, own.key)))
+    session = open_network_session(0, ClientConfig((secure,), Tls(own.ca, own.certificate, own.key)))
     assert session.answering_sessions(session.zid[:8], TIMEOUT_S) == {session.zid[:8]}
     session.close()
 
@@ -57,14 +62,14 @@ def test_mutual_tls_connects(secure, files):
 def test_router_with_foreign_certificate_is_refused_and_reported(secure, files):
     _, stranger = files
     tls = Tls(stranger.ca, stranger.certificate, stranger.key)
-    assert "the router's certificate is refused" in refusal(Way((secure,), tls, timeout_s=0.3))
+    assert "the router's certificate is refused" in refusal(ClientConfig((secure,), tls, timeout_s=0.3))
 
 
 def test_client_with_missing_or_wrong_certificate_is_refused_and_reported(secure, files):
     own, stranger = files
-    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), timeout_s=0.3))
+    assert "--tls-certificate" in refusal(ClientConfig((secure,), Tls(own.ca), timeout_s=0.3))
     wrong = Tls(own.ca, stranger.certificate, stranger.key)
-    reported = refusal(Way((secure,), wrong, timeout_s=0.3))
+    reported = refusal(ClientConfig((secure,), wrong, timeout_s=0.3))
     assert stranger.certificate in reported and "X.509 version 3" in reported and "--tls-certificate" not in reported
 
 
@@ -85,28 +90,28 @@ def test_certificate_accepted_by_zenoh_is_not_blamed_by_stricter_python(secure, 
         return context
 
     monkeypatch.setattr(ssl, "create_default_context", strict)
-    assert "--tls-certificate" in refusal(Way((secure,), Tls(own.ca), timeout_s=0.3))
+    assert "--tls-certificate" in refusal(ClientConfig((secure,), Tls(own.ca), timeout_s=0.3))
 
 
 def test_unusable_certificate_files_are_named(secure, files, tmp_path):
     own, _ = files
     text = tmp_path / "text"
     text.write_text("hello")
-    assert f"{text} is not a PEM file" in refusal(Way((secure,), Tls(str(text)), timeout_s=0.3))
-    assert "cannot read /nowhere" in refusal(Way((secure,), Tls("/nowhere"), timeout_s=0.3))
-    assert "go together" in refusal(Way((secure,), Tls(own.ca, own.certificate), timeout_s=0.3))
+    assert f"{text} is not a PEM file" in refusal(ClientConfig((secure,), Tls(str(text)), timeout_s=0.3))
+    assert "cannot read /nowhere" in refusal(ClientConfig((secure,), Tls("/nowhere"), timeout_s=0.3))
+    assert "go together" in refusal(ClientConfig((secure,), Tls(own.ca, own.certificate), timeout_s=0.3))
 
 
 def test_unreachable_router_is_reported_with_what_to_start():
-    assert "rmw_zenohd" in refusal(Way((f"tcp/127.0.0.1:{free_port()}",), timeout_s=0.3))
-    assert "no host of the name" in refusal(Way(("tcp/no-such-robot.invalid:7447",), timeout_s=0.3))
-    assert "no host of the name" in refusal(Way((f"tcp/{'a' * 64}:7447",), timeout_s=0.3))
+    assert "rmw_zenohd" in refusal(ClientConfig((f"tcp/127.0.0.1:{free_port()}",), timeout_s=0.3))
+    assert "no host of the name" in refusal(ClientConfig(("tcp/no-such-robot.invalid:7447",), timeout_s=0.3))
+    assert "no host of the name" in refusal(ClientConfig((f"tcp/{'a' * 64}:7447",), timeout_s=0.3))
 
 
 def test_port_that_is_open_but_does_not_answer_is_reported_with_what_to_check():
     with socket.create_server(("127.0.0.1", 0)) as listening:
         endpoint = f"tcp/127.0.0.1:{listening.getsockname()[1]}"
-        reported = refusal(Way((endpoint,), timeout_s=0.3))
+        reported = refusal(ClientConfig((endpoint,), timeout_s=0.3))
     assert reported.startswith(f"{endpoint}: the port is open, but no router answered within 0.3 s: try again")
 
 
@@ -127,7 +132,7 @@ def test_environment_variables_of_rmw_zenoh_are_respected(monkeypatch, tmp_path)
     file.write_text("{ mode: 'peer', connect: { endpoints: ['tcp/127.0.0.1:1'] } }  // as for a node")
     monkeypatch.setenv("ZENOH_SESSION_CONFIG_URI", str(file))
     monkeypatch.setenv("ZENOH_CONFIG_OVERRIDE", f'connect/endpoints=["tcp/127.0.0.1:{port}"];connect/timeout_ms=3000')
-    session = open_network_session(0, with_environment(Way(timeout_s=0.3)))
+    session = open_network_session(0, with_environment(ClientConfig(timeout_s=0.3)))
     assert session.answering_sessions(session.zid[:8], TIMEOUT_S)
     session.close()
     router.close()
@@ -144,13 +149,13 @@ def test_environment_variables_of_rmw_zenoh_are_respected(monkeypatch, tmp_path)
 def test_invalid_environment_variables_are_rejected(monkeypatch, name, value, reported):
     monkeypatch.setenv(name, value)
     with pytest.raises(SessionError, match=reported):
-        with_environment(Way(("tcp/robot:7447",)))
+        with_environment(ClientConfig(("tcp/robot:7447",)))
 
 
 def test_invalid_tokens_are_ignored_and_the_first_is_reported():
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
-    router, way, reported = Router(serving), Way(serving.endpoints), []
-    robot, client = open_network_session(0, way), open_network_session(0, way)
+    router, config, reported = Router(serving), ClientConfig(serving.endpoints), []
+    robot, client = open_network_session(0, config), open_network_session(0, config)
     robot.declare_token(node_token(0, TokenNode(robot.zid, 0, "", "/", "robot")))
     for each in ("XX/%/%/robot", "NN/%"):
         robot.declare_token(f"@ros2_lv/0/{robot.zid}/1/2/{each}")
@@ -164,11 +169,11 @@ def test_invalid_tokens_are_ignored_and_the_first_is_reported():
 
 
 def test_setting_unknown_to_zenoh_is_rejected():
-    assert "rejects" in refusal(Way(("tcp/127.0.0.1:1",), override=(("mode", "'boss'"),)))
+    assert "rejects" in refusal(ClientConfig(("tcp/127.0.0.1:1",), override=(("mode", "'boss'"),)))
 
 
 def test_client_does_not_listen_or_scout():
-    settings = client_settings("1" * 32, Way(("tcp/robot:7447",)))
+    settings = client_settings("1" * 32, ClientConfig(("tcp/robot:7447",)))
     assert settings["mode"] == "client" and settings["listen"] == {"endpoints": []}
     assert not settings["scouting"]["multicast"]["enabled"] and not settings["scouting"]["gossip"]["enabled"]
     assert json.dumps(settings)
@@ -176,8 +181,8 @@ def test_client_does_not_listen_or_scout():
 
 def test_client_reconnects_and_its_declarations_work_after_router_restart():
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
-    router, way = Router(serving), Way(serving.endpoints)
-    one, two = open_network_session(0, way), open_network_session(0, way)
+    router, config = Router(serving), ClientConfig(serving.endpoints)
+    one, two = open_network_session(0, config), open_network_session(0, config)
     heard = threading.Event()
     two.declare_subscriber("t", lambda payload, attachment: heard.set())
     publisher = one.declare_publisher("t")
@@ -214,8 +219,8 @@ def test_documented_access_list_keeps_guests_from_controlling_the_robot(tmp_path
     file = tmp_path / "access.json5"
     file.write_text(listed)
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
-    router, way = Router(serving, str(file)), Way(serving.endpoints)
-    robot, guest = open_network_session(0, way), open_network_session(0, way)
+    router, config = Router(serving, str(file)), ClientConfig(serving.endpoints)
+    robot, guest = open_network_session(0, config), open_network_session(0, config)
     heard, asked = [], []
     for topic in ("scan", "cmd_vel", "ns/cmd_vel"):
         robot.declare_subscriber(f"0/{topic}/t", lambda payload, attachment, topic=topic: heard.append(topic))
@@ -277,7 +282,7 @@ class Link:
     @property
     def silent(self) -> float:
         """Return how long nothing was answered, in s."""
-        return self.now - (self.probe.state.heard or 0.0)
+        return self.now - (self.probe.state.last_answer or 0.0)
 
     @property
     def delay(self) -> float | None:

@@ -13,7 +13,7 @@ from bot_console.runtime.rmw.middleware import choose_middleware
 from bot_console.runtime.rmw.qos_matching import DDS, RMW_ZENOH
 from bot_console.runtime.rmw.zenoh.bus import ZenohBus
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
-from bot_console.runtime.rmw.zenoh.network.client import Way
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.console.graph.pairs import unheard
@@ -34,19 +34,19 @@ WEAK = QoSProfile(depth=5, reliability=ReliabilityPolicy.BEST_EFFORT)
 
 
 @pytest.fixture
-def way():
+def config():
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     router = Router(serving)
-    yield Way(serving.endpoints)
+    yield ClientConfig(serving.endpoints)
     router.close()
 
 
 @pytest.fixture
-def captured_nodes(way):
+def captured_nodes(config):
     made = []
 
     def make(*what, **how):
-        made.append(CapturedNode(way, *what, **how))
+        made.append(CapturedNode(config, *what, **how))
         return made[-1]
 
     yield make
@@ -55,8 +55,8 @@ def captured_nodes(way):
 
 
 @pytest.fixture
-def console(way):
-    buses, context = connect(way), Context()
+def console(config):
+    buses, context = connect(config), Context()
     rclpy.init(args=[], context=context, domain_id=0)
     node = rclpy.create_node("console", context=context, enable_rosout=False, start_parameter_services=False)
     executor = SingleThreadedExecutor(context=context)
@@ -130,7 +130,7 @@ def test_log_lines_older_than_their_lifespan_are_received(captured_nodes, consol
 def test_served_robot_follows_domain_rules_inside_and_rmw_zenoh_rules_behind_its_router(socket_folder):
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     robot, beside = MeshSession(0, serving), MeshSession(0)
-    listener = CapturedNode(Way(serving.endpoints), "MS", "/tl_sub")
+    listener = CapturedNode(ClientConfig(serving.endpoints), "MS", "/tl_sub")
     bus = ZenohBus(robot, LocalBus())
     choose_middleware(lambda domain: bus)
     context = Context()

@@ -28,7 +28,7 @@ def test_down_ends_system_whose_domain_folder_was_deleted(
     folder: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
-    monkeypatch.setattr(background, "robot_there", list)
+    monkeypatch.setattr(background, "running_robot_nodes", list)
     with subprocess.Popen(SLEEPER, stdout=subprocess.PIPE, start_new_session=True) as process:
         assert process.stdout is not None and process.stdout.readline()
         monkeypatch.setattr(Background, "runs", lambda self: process.poll() is None)

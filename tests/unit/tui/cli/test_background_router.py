@@ -22,7 +22,7 @@ def test_router_does_not_write_to_a_rotating_log(
 
     monkeypatch.setattr(background, "take_part", lambda: "")
     monkeypatch.setattr(background, "_running_system", lambda: None)
-    monkeypatch.setattr(background, "robot_there", lambda: next(there))
+    monkeypatch.setattr(background, "running_robot_nodes", lambda: next(there))
     monkeypatch.setattr(background, "_is_program", lambda pid, word: False)
     monkeypatch.setattr(background.subprocess, "Popen", start)
     monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)

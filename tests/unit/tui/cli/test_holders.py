@@ -45,7 +45,7 @@ def test_status_names_who_holds_a_robot_in_a_namespace(
     monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     """Its nodes have other names than those of a robot without a namespace."""
-    for name, value in {"reach_system": "", "_running_system": None, "robot_there": [], "frozen": []}.items():
+    for name, value in {"reach_system": "", "_running_system": None, "running_robot_nodes": [], "frozen": []}.items():
         monkeypatch.setattr(background, name, lambda value=value: value)
     monkeypatch.setattr(background, "holders", lambda: ["anna: my foot"])
     monkeypatch.setattr(background, "others_take_part", lambda: True)

@@ -59,7 +59,7 @@ def test_interrupted_status_prints_nothing(
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
     monkeypatch.setattr(background, "_running_system", lambda: None)
-    monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"])
+    monkeypatch.setattr(background, "running_robot_nodes", lambda: ["/simulator"])
     monkeypatch.setattr(reached_stop.ReachedStop, "follow", end)
     assert run_and_report(lambda: main(["status"])) == code
     assert capsys.readouterr().err == ""

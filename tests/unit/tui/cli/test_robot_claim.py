@@ -108,7 +108,7 @@ def up(monkeypatch, tmp_path):
 
     for name, value in {
         "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "_file": lambda: tmp_path / "known.json",
-        "robot_there": lambda: ["/simulator"] if calls else [], "_is_program": lambda pid, word: bool(calls),
+        "running_robot_nodes": lambda: ["/simulator"] if calls else [], "_is_program": lambda pid, word: bool(calls),
     }.items():  # fmt: skip
         monkeypatch.setattr(background, name, value)
     monkeypatch.setattr(background.subprocess, "Popen", start)
@@ -123,7 +123,7 @@ def test_up_hands_its_claim_to_the_system(up):
 
 def test_up_starts_no_robot_beside_a_console_that_is_starting_one(up, tmp_path, monkeypatch, capsys):
     first, polls = RobotClaim(tmp_path), iter([[], ["/simulator"]])
-    monkeypatch.setattr(background, "robot_there", lambda: next(polls))
+    monkeypatch.setattr(background, "running_robot_nodes", lambda: next(polls))
     assert background.up([]) == 1 and not up
     reported = capsys.readouterr().err
     assert (
@@ -138,7 +138,7 @@ def test_up_starts_no_robot_beside_a_console_that_is_starting_one(up, tmp_path, 
 def test_nodes_with_our_names_alone_are_not_a_robot(program, up, tmp_path, monkeypatch, capsys):
     apart = []
     for name, value in {
-        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": list,
+        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "running_robot_nodes": list,
         "isolate_from_domain": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
@@ -156,7 +156,8 @@ def test_nodes_with_our_names_alone_are_not_a_robot(program, up, tmp_path, monke
 def test_headless_runs_in_isolation_beside_a_console_that_is_starting_a_robot(tmp_path, monkeypatch, capsys):
     first, polls, apart = RobotClaim(tmp_path), iter([[], ["/simulator"]]), []
     for name, value in {
-        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path), "robot_there": lambda: next(polls),
+        "take_part": lambda: "", "robot_claim": lambda: RobotClaim(tmp_path),
+        "running_robot_nodes": lambda: next(polls),
         "isolate_from_domain": lambda: apart.append(1),
     }.items():  # fmt: skip
         monkeypatch.setattr(headless, name, value)
@@ -186,7 +187,7 @@ def test_console_started_beside_another_shows_its_robot(tmp_path, monkeypatch, c
 
     for name, value in {
         "Session": Shown, "_prepare": lambda options: None, "_refusal": lambda _: "", "why_alone": lambda: "",
-        "is_in_range": lambda: True, "others_take_part": lambda: False, "robot_there": lambda: next(polls),
+        "is_in_range": lambda: True, "others_take_part": lambda: False, "running_robot_nodes": lambda: next(polls),
         "robot_claim": lambda: RobotClaim(tmp_path),
     }.items():  # fmt: skip
         monkeypatch.setattr(open_console, name, value)

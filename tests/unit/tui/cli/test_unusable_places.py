@@ -50,7 +50,7 @@ def test_background_system_reports_where_its_log_would_go(
     no_home: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
 ) -> None:
     monkeypatch.setattr(background, "take_part", lambda: "")
-    monkeypatch.setattr(background, "robot_there", list)
+    monkeypatch.setattr(background, "running_robot_nodes", list)
     assert background.up([]) == 1
     message = capsys.readouterr().err
     assert message.startswith(f"not started: the log cannot be kept in {no_home}/state: ") and OVERRIDE in message

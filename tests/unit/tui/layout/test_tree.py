@@ -35,13 +35,13 @@ def changed_trees(draw: st.DrawFn) -> Tree:
     tree: Tree = "a"
     for _ in range(draw(st.integers(0, 12))):
         pane, other = draw(st.sampled_from(NAMES)), draw(st.sampled_from(NAMES))
-        way = draw(st.sampled_from(["beside", "below"]))
+        direction = draw(st.sampled_from(["beside", "below"]))
         step = draw(st.sampled_from([-0.3, -0.05, 0.05, 0.3]))
         changes = [
-            lambda tree, p=pane, o=other, w=way: split(tree, p, o, w) if p in panes(tree) else tree,
+            lambda tree, p=pane, o=other, w=direction: split(tree, p, o, w) if p in panes(tree) else tree,
             lambda tree, p=pane: close(tree, p) or tree,
             lambda tree, p=pane, o=other: exchange(tree, p, o) if p in panes(tree) else tree,
-            lambda tree, p=pane, w=way, s=step: resize(tree, p, w, s),
+            lambda tree, p=pane, w=direction, s=step: resize(tree, p, w, s),
             lambda tree, p=pane: turn(tree, p),
             even,
         ]
@@ -67,11 +67,11 @@ def test_tree_survives_a_round_trip_through_its_data(tree: Tree) -> None:
 
 
 @given(changed_trees(), st.sampled_from(NAMES), st.sampled_from(NAMES), st.sampled_from(["beside", "below"]))
-def test_closing_a_split_restores_the_layout(tree: Tree, pane: str, new: str, way: str) -> None:
+def test_closing_a_split_restores_the_layout(tree: Tree, pane: str, new: str, direction: str) -> None:
     if pane in panes(tree) and new not in panes(tree):
-        again = close(split(tree, pane, new, way), new)
+        again = close(split(tree, pane, new, direction), new)
         assert panes(again) == panes(tree)
-        assert set(panes(split(tree, pane, new, way))) == {*panes(tree), new}
+        assert set(panes(split(tree, pane, new, direction))) == {*panes(tree), new}
 
 
 def test_split_halves_a_pane_and_same_direction_adds_no_level() -> None:

@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 import rclpy
 from bot_console.runtime.rmw.zenoh.link_probe import LinkState
-from bot_console.runtime.rmw.zenoh.network.client import Way
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach_options import AttachOptions
 from bot_console.tui.console.graph import unresponsive_nodes
@@ -71,7 +71,7 @@ def test_console_on_a_network_finds_the_node_that_hangs(monkeypatch: pytest.Monk
     thread = threading.Thread(target=spin, args=(executor,))
     thread.start()
     try:
-        assert network.run_network(AttachOptions(Options(), Way(("tcp/robot:7447",)))) == 0
+        assert network.run_network(AttachOptions(Options(), ClientConfig(("tcp/robot:7447",)))) == 0
     finally:
         context.shutdown()
         thread.join()

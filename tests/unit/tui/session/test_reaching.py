@@ -8,7 +8,12 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from bot_console.runtime.rmw.zenoh.network.client import CONFIG_VARIABLE, OVERRIDE_VARIABLE, Way, with_environment
+from bot_console.runtime.rmw.zenoh.network.client import (
+    CONFIG_VARIABLE,
+    OVERRIDE_VARIABLE,
+    ClientConfig,
+    with_environment,
+)
 from bot_console.runtime.rmw.zenoh.network.reachability import Tls
 from bot_console.tui.cli import open_console
 from bot_console.tui.cli.arguments import Options
@@ -63,7 +68,7 @@ class Closed:
 
 
 def test_programs_that_a_network_console_starts_reach_its_router(started_sessions: list[tuple[Any, ...]]) -> None:
-    assert network.run_network(AttachOptions(Options(), Way((ROBOT,)))) == 0
+    assert network.run_network(AttachOptions(Options(), ClientConfig((ROBOT,)))) == 0
     assert len(started_sessions) == 1 and named_routers() == [ROBOT]
 
 
@@ -73,7 +78,7 @@ def test_programs_that_a_network_console_starts_reach_its_router(started_session
 def test_network_console_starts_no_nodes_that_would_not_reach_its_robot(
     started_sessions: list[tuple[Any, ...]], line: str
 ) -> None:
-    network.run_network(AttachOptions(Options(), Way((ROBOT,))))
+    network.run_network(AttachOptions(Options(), ClientConfig((ROBOT,))))
     with pytest.raises(ValueError, match="launch on the robot itself"):
         started_sessions[0][1].run(line).result(240.0)
 
@@ -90,8 +95,8 @@ def test_children_inherit_several_endpoints_and_certificates_but_the_users_setti
 ) -> None:
     ca = tmp_path / "a;b=c.pem"
     os.environ[OVERRIDE_VARIABLE] = f'{CA}="/mine.pem"'
-    lead_children_to(Way((ROBOT, "tls/other:1"), Tls(ca=str(ca), any_name=True)))
-    inherited = with_environment(Way(tuple(named_routers())))
+    lead_children_to(ClientConfig((ROBOT, "tls/other:1"), Tls(ca=str(ca), any_name=True)))
+    inherited = with_environment(ClientConfig(tuple(named_routers())))
     assert inherited.endpoints == (ROBOT, "tls/other:1")
     settings = [(path, value.replace("\\u003b", ";")) for path, value in inherited.override]
     assert settings[0] == (CA, f'"{ca}"') and settings[-1] == (CA, '"/mine.pem"')
@@ -103,5 +108,5 @@ def test_children_inherit_the_endpoint_of_a_configuration_file(tmp_path: Path, e
     file = tmp_path / "session.json5"
     file.write_text(f"{{ connect: {{ endpoints: {endpoints} }} }}")
     os.environ[CONFIG_VARIABLE] = str(file)
-    lead_children_to(Way())
+    lead_children_to(ClientConfig())
     assert named_routers() == [ROBOT]

@@ -41,13 +41,13 @@ def make_node(monkeypatch):
 def test_console_that_watches_velocities_is_not_a_robot(make_node):
     make_node("_bot_console_drive").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
     make_node("talker")
-    assert domain.robot_there() == []
+    assert domain.running_robot_nodes() == []
 
 
 def test_scan_publisher_and_velocity_subscriber_are_a_robot(make_node):
     make_node("lidar").create_publisher(LaserScan, "/scan", 10)
     make_node("base").create_subscription(Twist, "/cmd_vel", lambda message: None, 10)
-    assert domain.robot_there() == ["/base", "/lidar"]
+    assert domain.running_robot_nodes() == ["/base", "/lidar"]
 
 
 def test_nodes_with_our_names_are_found_whatever_their_topics(make_node):
@@ -86,7 +86,7 @@ def test_status_reports_a_stopped_process(monkeypatch, capsys):
         there = [sockets.Socket("/a", os.getpid(), "0" * 8), sockets.Socket("/b", child.pid, "1" * 8)]
         monkeypatch.setattr(sockets, "sockets", lambda folder: there)
         monkeypatch.setattr(background, "take_part", lambda: "")
-        monkeypatch.setattr(background, "robot_there", lambda: [])
+        monkeypatch.setattr(background, "running_robot_nodes", lambda: [])
         monkeypatch.setattr(background, "others_take_part", lambda: False)
         monkeypatch.setattr(background, "_running_system", lambda: None)
         try:

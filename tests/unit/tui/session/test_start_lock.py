@@ -58,7 +58,7 @@ def started_processes(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> list[o
     monkeypatch.setattr(background, "_file", lambda: tmp_path / "background.json")
     monkeypatch.setattr(background, "_is_program", lambda pid, word: True)
     monkeypatch.setattr(background, "_accepts_consoles", lambda pid: True)
-    monkeypatch.setattr(background, "robot_there", lambda: ["/simulator"] if calls else [])
+    monkeypatch.setattr(background, "running_robot_nodes", lambda: ["/simulator"] if calls else [])
     monkeypatch.setattr(system_log, "state_folder", lambda: tmp_path)
     return calls
 
@@ -71,7 +71,7 @@ def test_system_that_started_during_the_search_is_not_doubled(
         (tmp_path / "background.json").write_text(text)
         return []
 
-    monkeypatch.setattr(background, "robot_there", begins_meanwhile)
+    monkeypatch.setattr(background, "running_robot_nodes", begins_meanwhile)
     assert background.up([]) == 1
     assert "process 7 (outdoor)" in capsys.readouterr().err and not started_processes
 
@@ -102,7 +102,7 @@ def test_interrupt_during_start_reports_how_to_end_it(
             raise KeyboardInterrupt
         return []
 
-    monkeypatch.setattr(background, "robot_there", polls)
+    monkeypatch.setattr(background, "running_robot_nodes", polls)
     with pytest.raises(KeyboardInterrupt):
         background.up([])
     assert "it is still starting: process" in capsys.readouterr().err
@@ -119,7 +119,7 @@ def test_system_that_does_not_come_up_in_time_is_not_reported_as_running(
     what: str,
 ) -> None:
     monkeypatch.setattr(background, "START_TIMEOUT_S", 0.0)
-    monkeypatch.setattr(background, "robot_there", list)
+    monkeypatch.setattr(background, "running_robot_nodes", list)
     monkeypatch.setattr(background, "_accepts_consoles", lambda pid: False)
     assert background.up(words) == 1
     message = capsys.readouterr()

@@ -6,7 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
-from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
 from bot_console.tui.console.bags.playing.playback import PlaybackState
@@ -109,7 +109,7 @@ class BagPlayback:
         try:
             player.await_subscriptions(self._stopped)
             player.run(self._stopped)
-        except NoBag as error:
+        except BagError as error:
             self._wait(problem=str(error))
         except Exception as error:  # the outermost frame of the thread: nobody else would report it
             self._wait(problem=f"playing ended: {type(error).__name__}: {error}")

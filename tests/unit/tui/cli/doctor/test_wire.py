@@ -5,7 +5,7 @@ import json
 import time
 
 import pytest
-from bot_console.runtime.rmw.zenoh.network.client import Way, open_network_session
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, open_network_session
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.wire.attachment import gid_of, pack, unpack
@@ -24,7 +24,7 @@ class Robot:
     """A session that declares a node with one topic, and publishes on it with any attachment."""
 
     def __init__(self, endpoint: str) -> None:
-        self.session = open_network_session(0, Way((endpoint,)))
+        self.session = open_network_session(0, ClientConfig((endpoint,)))
         self._node = TokenNode(self.session.zid, 0, "", "/", "robot")
         self.session.declare_token(node_token(0, self._node))
 
@@ -53,7 +53,7 @@ def observe(place, publishing=lambda: None):
     """What the doctor sees while `publishing` is called repeatedly."""
     import threading
 
-    session, ended = open_network_session(0, Way((place,))), threading.Event()
+    session, ended = open_network_session(0, ClientConfig((place,))), threading.Event()
 
     def publish():
         while not ended.wait(0.02):
@@ -126,7 +126,7 @@ def test_empty_domain_says_what_to_check(place):
 
 def test_nodes_in_another_domain_are_reported_with_the_domain_to_start_in(place, robot):
     for number, found in ((0, ""), (5, "no node in domain 5: set ROS_DOMAIN_ID=0; nodes are in 0")):
-        session = open_network_session(number, Way((place,)))
+        session = open_network_session(number, ClientConfig((place,)))
         session.declare_token(node_token(5, TokenNode(session.zid, 0, "", "/", "_console")))
         wire = watch_wire(session, 0.0)
         session.close()

@@ -15,7 +15,7 @@ import rclpy
 from action_tutorials_interfaces.action import Fibonacci
 from bot_console.tui.console.bags import damage
 from bot_console.tui.console.bags.contents import Contents
-from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import definition, interface_type_name
 from bot_console.tui.console.bags.opened_bag import OpenedBag
 from bot_console.tui.console.bags.playing.player import PlaybackOptions, Player
@@ -145,7 +145,7 @@ def test_a_repair_that_fails_on_a_full_disk_leaves_the_file_unchanged(
 
     with monkeypatch.context() as patched:
         patched.setattr(os, "fsync", full)
-        with pytest.raises(NoBag, match="cannot be given one: No space left"):
+        with pytest.raises(BagError, match="cannot be given one: No space left"):
             Bag(file.parent)
     assert file.read_bytes() == cut and len(list(file.parent.iterdir())) == 2
     assert texts(Bag(file.parent)) == ["mine"]
@@ -176,7 +176,7 @@ def test_files_that_are_not_bags_are_refused(tmp_path: Path) -> None:
         ("bad.mcap", "not an MCAP"),
         ("bad.db3", "database"),
     ):
-        with pytest.raises(NoBag, match=message_of):
+        with pytest.raises(BagError, match=message_of):
             Bag(tmp_path / name)
 
 
@@ -188,7 +188,7 @@ def test_a_damaged_byte_anywhere_is_reported_or_harmless(tmp_path: Path, step: i
         file.write_bytes(whole[:place] + b"\xff" + whole[place + 1 :])
         try:
             contents = Contents(Bag(file.parent))
-        except NoBag:
+        except BagError:
             reported += 1
         else:
             reported += bool(contents.damage)
@@ -204,7 +204,7 @@ def test_a_message_with_an_impossible_time_is_reported(tmp_path: Path, stamp: st
     base.execute(f"insert into messages (topic_id, timestamp, data) values (1, {stamp}, x'00')")
     base.commit()
     base.close()
-    with pytest.raises(NoBag, match="is damaged: a message is dated"):
+    with pytest.raises(BagError, match="is damaged: a message is dated"):
         Bag(tmp_path)
 
 

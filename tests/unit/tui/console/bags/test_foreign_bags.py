@@ -12,7 +12,7 @@ import pytest
 from bot_console.tui.cli.verbs import bag as verb
 from bot_console.tui.console.bags import compression
 from bot_console.tui.console.bags.contents import Contents
-from bot_console.tui.console.bags.damage import NoBag
+from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import definition
 from bot_console.tui.console.bags.reader import Bag
 from rclpy.serialization import deserialize_message, serialize_message
@@ -216,7 +216,7 @@ def test_a_chunk_that_unpacks_to_far_more_is_refused(tmp_path: Path, small_parts
 
     size = 3 * small_parts
     data = lz4.frame.compress(bytes(size)) if how == "lz4" else zstd_bomb(size, declared=how != "zstd")
-    with pytest.raises(NoBag, match=r"unpacks to more than|bytes instead of"):
+    with pytest.raises(BagError, match=r"unpacks to more than|bytes instead of"):
         Bag(chunk_file(tmp_path / "a.mcap", how.partition(",")[0], data, claimed(small_parts)))
 
 
@@ -229,14 +229,14 @@ def test_a_message_that_unpacks_to_far_more_is_refused(tmp_path: Path, small_par
         writer.add_message(channel, BEGIN, zstd_bomb(3 * small_parts, declared=declared), BEGIN)
         writer.finish()
     bag = Bag(tmp_path / "a.mcap")
-    with pytest.raises(NoBag, match="a message unpacks to more than 4 MiB"):
+    with pytest.raises(BagError, match="a message unpacks to more than 4 MiB"):
         list(bag.messages())
 
 
 def test_a_file_that_unpacks_to_far_more_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(compression, "FREE_BYTES", 10 * 1024**2)
     (tmp_path / "bag_0.db3.zstd").write_bytes(zstd_bomb(50 * 1024**2, declared=False))
-    with pytest.raises(NoBag, match="unpacks to more than 10 MiB"):
+    with pytest.raises(BagError, match="unpacks to more than 10 MiB"):
         Bag(tmp_path)
 
 
@@ -247,7 +247,7 @@ def test_a_damaged_byte_anywhere_in_a_file_without_index_is_reported_or_changes_
         path.write_bytes(whole[:place] + b"\xff" + whole[place + 1 :])
         try:
             reported += bool(Contents(Bag(path)).damage)
-        except NoBag:
+        except BagError:
             reported += 1
     assert reported > 20
 

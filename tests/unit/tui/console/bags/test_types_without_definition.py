@@ -15,7 +15,7 @@ import pytest
 import rclpy
 from bot_console.runtime.rmw.local import local_bus
 from bot_console.runtime.rmw.middleware import choose_middleware
-from bot_console.runtime.rmw.zenoh.network.client import Way
+from bot_console.runtime.rmw.zenoh.network.client import ClientConfig
 from bot_console.runtime.rmw.zenoh.network.router import Router
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.tui.cli.verbs.bag import run as bag_verb
@@ -43,24 +43,24 @@ TOPIC, AGAIN = "/latched", "/tl_sub"
 
 
 @pytest.fixture
-def way() -> Iterator[Way]:
+def config() -> Iterator[ClientConfig]:
     serving = Serving((f"tcp/127.0.0.1:{free_port()}",))
     router = Router(serving)
-    buses = connect(Way(serving.endpoints))
-    yield Way(serving.endpoints)
+    buses = connect(ClientConfig(serving.endpoints))
+    yield ClientConfig(serving.endpoints)
     buses.close()
     choose_middleware(local_bus)
     router.close()
 
 
 @pytest.fixture
-def captured(way: Way) -> Iterator[Callable[..., CapturedNode]]:
+def captured(config: ClientConfig) -> Iterator[Callable[..., CapturedNode]]:
     """Makes endpoints of the node behind the router."""
     made: list[CapturedNode] = []
 
     def make(kind: str, type_name: str = ON_WIRE, type_hash: str = HASH) -> CapturedNode:
         topic = TOPIC if kind == "MP" else AGAIN
-        made.append(CapturedNode(way, kind, topic, type_name=type_name, type_hash=type_hash))
+        made.append(CapturedNode(config, kind, topic, type_name=type_name, type_hash=type_hash))
         return made[-1]
 
     yield make
@@ -69,7 +69,7 @@ def captured(way: Way) -> Iterator[Callable[..., CapturedNode]]:
 
 
 @pytest.fixture
-def node(way: Way) -> Iterator[Any]:
+def node(config: ClientConfig) -> Iterator[Any]:
     context = Context()
     rclpy.init(args=[], context=context, domain_id=0)
     made = rclpy.create_node("bags", context=context, enable_rosout=False, start_parameter_services=False)
@@ -181,7 +181,7 @@ def test_a_console_records_without_a_definition_once_it_has_waited_for_one(
 
 
 def test_a_recording_says_at_its_end_which_topics_have_no_definition(
-    tmp_path: Path, way: Way, captured: Callable[..., CapturedNode], monkeypatch: pytest.MonkeyPatch
+    tmp_path: Path, config: ClientConfig, captured: Callable[..., CapturedNode], monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr(recordings, "DEFINITION_TIMEOUT_S", 0.0)
     room = Recordings(generic=DomainTypes())

@@ -45,7 +45,7 @@ def test_the_newest_status_of_each_name_is_kept_with_values_and_time() -> None:
     clock.now += 2.0
     watch.take(output(DiagnosticStatus.WARN, "warm", temperature="70"))
     [status] = watch.diagnostics().statuses
-    assert (status.level, status.message, status.hardware, status.values, status.heard) == (
+    assert (status.level, status.message, status.hardware, status.values, status.last_received) == (
         Level.WARN, "warm", "arm", (("temperature", "70"),), 102.0,
     )  # fmt: skip
     assert watch.diagnostics() is watch.diagnostics(), "the same object until a message arrives"

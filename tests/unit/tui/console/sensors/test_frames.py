@@ -83,7 +83,7 @@ def test_rate_position_and_age_are_measured() -> None:
     assert frame.turn == pytest.approx((0.0, 0.0, 0.5))
     assert frame.rate == pytest.approx(10.0)
     assert frame.late is None  # its stamp is from another clock
-    assert bench.now - frame.heard == pytest.approx(0.1)
+    assert bench.now - frame.last_received == pytest.approx(0.1)
 
 
 def test_two_parents_within_a_few_seconds_are_reported() -> None:
@@ -110,12 +110,12 @@ def test_two_static_parents_stay_reported() -> None:
 
 def test_findings_are_described_in_text() -> None:
     frames = (
-        Frame("a", "b", heard=10.0),
-        Frame("b", "a", heard=10.0),
-        Frame("base", "odom", heard=10.0, others=("map",)),
-        Frame("camera", "base", fixed=True, heard=1.0),
-        Frame("odom", "world", heard=5.0),
-        Frame("slow", "map", heard=8.0, rate=1.0),
+        Frame("a", "b", last_received=10.0),
+        Frame("b", "a", last_received=10.0),
+        Frame("base", "odom", last_received=10.0, others=("map",)),
+        Frame("camera", "base", fixed=True, last_received=1.0),
+        Frame("odom", "world", last_received=5.0),
+        Frame("slow", "map", last_received=8.0, rate=1.0),
     )
     assert [text for _, text in findings(Frames(frames), 10.0)] == [
         "a in b in a: a loop, so nothing can be looked up in it",

@@ -29,9 +29,9 @@ def test_slashes_make_levels_and_the_worst_is_propagated() -> None:
 
 
 def test_silent_status_is_stale_after_five_seconds_unless_an_error() -> None:
-    old = status("a/old", heard=NOW - 5.1)
+    old = status("a/old", last_received=NOW - 5.1)
     assert row_facts(rows([old, status("a/warm", Level.WARN)], NOW))[0] == ("a", 0, Level.STALE)
-    assert row_facts(rows([status("a/edge", heard=NOW - 5.0)], NOW))[0] == ("a", 0, Level.OK)
+    assert row_facts(rows([status("a/edge", last_received=NOW - 5.0)], NOW))[0] == ("a", 0, Level.OK)
     assert row_facts(rows([old, status("a/bad", Level.ERROR)], NOW))[0] == ("a", 0, Level.ERROR)
 
 
@@ -48,7 +48,7 @@ def test_folded_rows_hide_their_descendants() -> None:
 
 
 def test_bad_only_hides_rows_that_are_ok() -> None:
-    statuses = [status("a/b", Level.WARN), status("c"), status("d", heard=0.0)]
+    statuses = [status("a/b", Level.WARN), status("c"), status("d", last_received=0.0)]
     assert [each.path for each in rows(statuses, NOW, bad_only=True)] == ["/a", "/a/b", "/d"]
 
 
