@@ -149,7 +149,7 @@ def difference_rows() -> str:
 
 def newer_release_rows() -> str:
     """The rows of the table of newer releases."""
-    rows = yaml.safe_load((Path(__file__).parent / "newer_releases.yaml").read_text("utf-8"))
+    rows = yaml.safe_load((Path(__file__).parent / "what_runs_releases.yaml").read_text("utf-8"))
     return "".join(f"| {row['release']} | {row['entry']} | {row['here']} | {row['how']} |\n" for row in rows)
 
 
@@ -161,7 +161,7 @@ def programs() -> str:
 
 def kept_difference_rows() -> str:
     """The rows of the third table."""
-    rows = yaml.safe_load((Path(__file__).parent / "kept_differences.yaml").read_text("utf-8"))
+    rows = yaml.safe_load((Path(__file__).parent / "what_runs_differences.yaml").read_text("utf-8"))
     return "".join(f"| {row['where']} | {row['here']} | {row['jazzy']} | {row['why']} |\n" for row in rows)
 
 

@@ -15,10 +15,11 @@ from bot_console.tui.cli.launch_lines import parse_launch_line
 from bot_console.tui.cli.verbs.colcon import answers
 from bot_console.tui.commanding.completion import live_names
 from bot_console.tui.console.command_line import Stream
+from bot_console.tui.console.command_line_limits import LINE_TIMEOUT_S, goes_on, interrupted, starts_nodes
 from bot_console.tui.console.in_background import in_background
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.running_lines import LINE_TIMEOUT_S, RunningLine, goes_on, interrupted, starts_nodes
+from bot_console.tui.console.running_line import RunningLine
 from bot_console.tui.learn.command_log import append_record, log_path, record_command
 
 START_TIMEOUT_S = 30.0

@@ -14,9 +14,10 @@ from concurrent.futures import Future
 
 from bot_console.tui.console.command_gate import done
 from bot_console.tui.console.command_line import Stream
+from bot_console.tui.console.command_line_limits import HELP, LINE_TIMEOUT_S, goes_on, interrupted, starts_nodes
 from bot_console.tui.console.in_background import in_background
 from bot_console.tui.console.model import ConsoleSnapshot
-from bot_console.tui.console.running_lines import HELP, LINE_TIMEOUT_S, RunningLine, goes_on, interrupted, starts_nodes
+from bot_console.tui.console.running_line import RunningLine
 
 COMMANDS = (
     "action",

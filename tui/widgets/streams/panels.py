@@ -8,7 +8,7 @@ from typing import ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.command_line import Stream
-from bot_console.tui.console.running_lines import goes_on
+from bot_console.tui.console.command_line_limits import goes_on
 from bot_console.tui.keys.key import key_text
 from bot_console.tui.widgets.streams.panel import StreamPanel
 from textual.containers import Container

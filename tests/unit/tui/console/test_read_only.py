@@ -11,7 +11,7 @@ from bot_console.tui.console.gated_command_line import GatedCommandLine
 from bot_console.tui.console.launch.gated_launcher import GatedLauncher
 from bot_console.tui.console.launch.port import Launcher
 from bot_console.tui.console.ros_console import RosConsole
-from bot_console.tui.console.running_lines import RunningLine
+from bot_console.tui.console.running_line import RunningLine
 from fakes.command_line import FakeCommandLine
 from fakes.launcher import FakeLauncher
 
