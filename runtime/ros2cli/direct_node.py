@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import argparse
 import contextlib
+import time
 from collections.abc import Callable, Generator
 from types import TracebackType
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -36,10 +37,13 @@ ENDED_POLLS = 2
 """The same for a server that is known to have ended; the loss of its link may be noticed a little later."""
 ENDED_POLLS_FOR_PROGRAMS = 14
 """The same if no person reads stderr: upstream waits for ever, and programs that stop it expect no output before."""
-DISCOVERY_S = 1.0
-"""Time (s) without a change after which the graph counts as complete, if rclpy is not ours."""
-MAX_DISCOVERIES = 5
-"""How many times in a row that time may be waited for."""
+DISCOVERY_S = 1.5
+"""Time (s) without a change after which the graph counts as complete, if rclpy is not ours.
+
+Fast DDS sends a part of the graph that was lost, as beside large messages, again after a second.
+"""
+MAX_DISCOVERY_S = 5.0
+"""Time (s) after which a graph that keeps changing, or has no nodes, counts as complete."""
 LATE_S = 4.0
 """Time (s) that the subject of a verb may be missing from such a graph, which arrives with pauses on a busy machine."""
 NAMES = ("node_name", "topic_name", "service_name", "action_name")
@@ -136,7 +140,8 @@ def _knows(node: Node, name: str) -> bool:
 
 
 def _settle(node: Node) -> None:
-    for _ in range(MAX_DISCOVERIES):
+    deadline = time.monotonic() + MAX_DISCOVERY_S
+    while time.monotonic() < deadline:
         before = _seen(node)
         if not spin_until(node, lambda before=before: _seen(node) != before, DISCOVERY_S) and before[0]:
             return

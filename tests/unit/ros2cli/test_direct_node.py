@@ -108,15 +108,18 @@ def test_hint_names_once_what_is_waited_for(
 
 
 class Graph:
-    """A graph that arrives bit by bit: one part at each step of a clock that advances only by waiting."""
+    """A graph that arrives bit by bit: one part every half second of a clock that advances only by waiting."""
 
     def __init__(self, *parts: str) -> None:
         self._parts = parts
-        self.now = 0
+        self.steps = 0
+
+    def now(self) -> float:
+        return self.steps / 2
 
     def wait(self, done: Any, seconds: float) -> bool:
-        for _ in range(int(seconds)):
-            self.now += 1
+        for _ in range(int(seconds * 2)):
+            self.steps += 1
             if done():
                 return True
         return False
@@ -125,7 +128,7 @@ class Graph:
         return "_ros2cli"
 
     def _there(self, kind: str) -> list[tuple[str, Any]]:
-        there = [each.split() for each in self._parts[: self.now]]
+        there = [each.split() for each in self._parts[: self.steps]]
         return [(name, "/" if kind == "node" else ["type"]) for each, name in filter(None, there) if each == kind]
 
     def get_node_names_and_namespaces(self) -> list[tuple[str, Any]]:
@@ -141,18 +144,22 @@ class Graph:
 @pytest.mark.parametrize(
     ("about", "parts", "seconds"),
     [
-        ("/base", ("node base",), 2),
-        ("/base", ("node other", "", "", "node base", "service /base/get"), 6),
-        ("/scan", ("node base", "", "", "topic /scan"), 5),
-        ("/go", ("node base", "", "", "service /go/_action/send_goal"), 5),
-        ("/nowhere", ("node base",), 6),
-        ("", ("node base", "", "", "node other"), 2),
+        ("/base", ("node base",), 2.0),
+        ("/base", ("node other", "", "", "", "node base", "service /base/get"), 4.5),
+        ("/scan", ("node base", "", "", "", "topic /scan"), 4.0),
+        ("/go", ("node base", "", "", "", "service /go/_action/send_goal"), 4.0),
+        ("/nowhere", ("node base",), 6.0),
+        ("", ("node base", "", "", "", "node other"), 2.0),
+        ("", tuple(f"node n{index}" for index in range(8)), 5.5),
+        ("", tuple(f"node n{index}" for index in range(20)), 5.0),
+        ("", (), 6.0),
     ],
 )
-def test_graph_of_another_rclpy_gets_time_to_find_what_a_verb_names(
-    monkeypatch: pytest.MonkeyPatch, about: str, parts: tuple[str, ...], seconds: int
+def test_graph_of_another_rclpy_gets_time_to_be_complete_and_to_find_what_a_verb_names(
+    monkeypatch: pytest.MonkeyPatch, about: str, parts: tuple[str, ...], seconds: float
 ) -> None:
     graph: Any = Graph(*parts)
     monkeypatch.setattr(direct_node, "spin_until", lambda node, done, timeout: node.wait(done, timeout))
+    monkeypatch.setattr(direct_node, "time", SimpleNamespace(monotonic=graph.now))
     direct_node._discover(graph, None, about)
-    assert graph.now == seconds
+    assert graph.now() == seconds
