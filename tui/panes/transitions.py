@@ -40,6 +40,11 @@ def ask_transition(pane: Pane, graph: GraphInfo, nodes: Sequence[str]) -> None:
     pane.ask(Choice("Transition", chosen, find=find, hint="type part of a name", empty="No such transition."))
 
 
+def state_text(state: str) -> str:
+    """A state, with the key that changes it, unless no transition is possible."""
+    return f"{state}, T changes it" if state in TRANSITIONS else state
+
+
 def about(state: str, verb: str) -> str:
     """The description of a transition."""
     return f"is {state}" + (", cannot be undone" if verb in FINAL else "")

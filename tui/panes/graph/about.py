@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from bot_console.tui.console.graph.findings import SILENT, debugger_text
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
+from bot_console.tui.panes.transitions import state_text
 from bot_console.tui.text.sanitize import counted, sanitize
 
 
@@ -34,7 +35,7 @@ def summary(info: GraphInfo, item: str, hides_name: Callable[[str], bool]) -> st
     stopped = "".join(f" - frozen: process {pid} is stopped" for name, pid in info.frozen if name == item)
     stopped = stopped or "".join(f" - {debugger_text(line)}" for name, line in info.debugged if name == item)
     stopped = stopped or (f" - {SILENT}" if item in info.silent else "")
-    state = f"{info.lifecycle[item]} (T changes it), " if item in info.lifecycle else ""
+    state = f"{state_text(info.lifecycle[item])}, " if item in info.lifecycle else ""
     return sanitize(f"{item}  {state}{', '.join(parts)}{stopped}")
 
 

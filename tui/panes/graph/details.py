@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 
 from bot_console.tui.console.graph.findings import GraphFinding, findings
+from bot_console.tui.console.graph.lifecycle_states import TRANSITIONS
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.panes.graph.about import node_of, nodes_on_topic, server_types, topic_types
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, TOPIC
@@ -38,7 +39,8 @@ def _node(snapshot: ConsoleSnapshot, name: str) -> Iterator[Option]:
         yield Option("The node is no longer running.")
         return
     if name in snapshot.graph.lifecycle:
-        yield Option(f"lifecycle {snapshot.graph.lifecycle[name]}", "T in the graph changes it")
+        state = snapshot.graph.lifecycle[name]
+        yield Option(f"lifecycle {state}", "T in the graph changes it" if state in TRANSITIONS else "")
     for verb, kind, field in NODE_ENDS:
         ends: tuple[Endpoint, ...] = getattr(node, field)
         for each in ends:

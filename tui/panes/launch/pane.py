@@ -28,7 +28,7 @@ from bot_console.tui.panes.launch.output import STYLES, ProcessOutput
 from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
-from bot_console.tui.panes.transitions import ask_transition
+from bot_console.tui.panes.transitions import ask_transition, state_text
 from bot_console.tui.safety.stop_wording import ended_lock_warning
 from bot_console.tui.screens.facts import FactsScreen
 from bot_console.tui.text.cadence import is_due
@@ -217,7 +217,7 @@ class LaunchPane(ListPane):
         if ending:
             return f"{name} {ending}" + (f"  {process.problem}" if process.problem else "")
         states = self._list.lifecycle
-        nodes = (f"{each} ({states[each]}, T changes it)" if each in states else each for each in process.nodes)
+        nodes = (f"{each} ({state_text(states[each])})" if each in states else each for each in process.nodes)
         about = f"{process.label}  {' '.join(nodes)}"
         if process.started_by:
             about = f"read-only: started by {process.started_by}  {' '.join(process.nodes)}"
