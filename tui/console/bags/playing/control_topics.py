@@ -19,14 +19,24 @@ COMMAND_TYPES = frozenset(
 )
 """Types whose messages move a robot whatever the topic is called; the first two of them also identify robots."""
 SURE_WORDS = frozenset(["cmd", "command", "commands", "release", "steer", "teleop"])
-COMMAND_WORDS = frozenset(["goal", "goals", "initialpose", "joy", "request", "route", "trajectory", "waypoints"])
+COMMAND_WORDS = frozenset(
+    [
+        "ack", "goal", "goals", "initialpose", "joy", "request", "reset", "route", "setpoint", "setpoints",
+        "steering", "throttle", "trajectory", "waypoints",
+    ]
+)  # fmt: skip
 STOP_WORDS = frozenset(
-    ["emergency", "estop", "lock", "locked", "locks", "locking", "pause", "protective", "stop", "stopped"]
-)
+    [
+        "brake", "brakes", "deadman", "disable", "disarm", "emergency", "enable", "freeze", "halt", "hold", "kill",
+        "killswitch", "lock", "locked", "locks", "locking", "pause", "protective", "stop", "stopped", "unlock",
+    ]
+)  # fmt: skip
 """Words in the last part of a topic name: the locks of twist_mux, for example, are `pause_navigation` and `e_stop`.
 
 `SURE_WORDS` count whatever the type, the others only if the type is not that of a measurement.
 """
+WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
+"""A word of a name like `e_stop2` or `emergencyStop`."""
 STOP_FOLDER = "emergency_stop"
 FIGURES = re.compile(r"(std_msgs/msg/(U?Int|Float)|sensor_msgs/msg/(?!Joy$)|nav_msgs/msg/Odometry)")
 """Types of measurements: a counter named `stops`, or a laser scan, neither locks nor commands anything."""
@@ -39,11 +49,13 @@ def controls(topic: str, type_name: str) -> bool:
     parts = [each for each in topic.split("/") if each]
     if STOP_FOLDER in parts[:-1]:
         return True
-    last = parts[-1].lower().replace("e_stop", "estop") if parts else ""
-    words = set(last.split("_"))
-    if last.startswith("cmd") or words & SURE_WORDS:
+    last = parts[-1] if parts else ""
+    words = {each.lower() for each in WORD.findall(last)}
+    if last.lower().startswith("cmd") or words & SURE_WORDS:
         return True
-    return not FIGURES.match(type_name) and bool(words & (COMMAND_WORDS | STOP_WORDS))
+    if FIGURES.match(type_name):
+        return False
+    return bool(words & (COMMAND_WORDS | STOP_WORDS)) or any(each.endswith("stop") for each in words)
 
 
 def left_out_warning(topics: Sequence[str]) -> str:

@@ -116,6 +116,15 @@ def test_the_warning_reports_what_is_left_out_and_how_to_include_it(
         ("/initialpose", "geometry_msgs/msg/PoseWithCovarianceStamped"),
         ("/pause_navigation", "std_msgs/msg/Bool"),
         ("/base/e_stop", "std_msgs/msg/Bool"),
+        ("/base/estop2", "std_msgs/msg/Bool"),
+        ("/base/EStop", "std_msgs/msg/Bool"),
+        ("/emergencystop", "std_msgs/msg/Empty"),
+        ("/stopMotors", "std_msgs/msg/Bool"),
+        ("/wheels/velocityCommand", "std_msgs/msg/Float64"),
+        ("/command3", "std_msgs/msg/Float64"),
+        ("/motors/enable", "std_msgs/msg/Bool"),
+        ("/safety/unlock", "std_msgs/msg/Empty"),
+        ("/kill_switch", "std_msgs/msg/Bool"),
     ],
 )
 def test_control_topics_are_recognised(topic: str, type_name: str) -> None:
@@ -135,6 +144,9 @@ def test_control_topics_are_recognised(topic: str, type_name: str) -> None:
         ("/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"),
         ("/clock", "rosgraph_msgs/msg/Clock"),
         ("/blocked", "std_msgs/msg/Bool"),
+        ("/isBlocked2", "std_msgs/msg/Bool"),
+        ("/stop/image", "sensor_msgs/msg/Image"),
+        ("/holder", "std_msgs/msg/String"),
     ],
 )
 def test_other_topics_are_not_control_topics(topic: str, type_name: str) -> None:
