@@ -89,7 +89,8 @@ class DirectNode:
 
     def __enter__(self) -> Node:
         advise(lambda: "" if is_in_range() else f"{RANGE_VARIABLE} is OFF: this command meets no other program")
-        rclpy.init(args=[])
+        # Unlike upstream: a folder for log files that cannot be written must not prevent a stop.
+        rclpy.init(args=["--ros-args", "--disable-external-lib-logs"])
         self._context = rclpy.get_default_context()
         domain = self._context.get_domain_id()
         try:

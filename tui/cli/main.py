@@ -74,7 +74,9 @@ def main(argv: Sequence[str] | None = None) -> int:
         words = _without_workspace(_without_distro(words))
     except ValueError as error:
         print(f"bot-console: {error}", file=sys.stderr)
-        return 2
+        if words[:1] != ["stop"]:
+            return 2
+        os.environ.pop("BOT_CONSOLE_DISTRO", None)  # nothing in the environment may prevent a stop
     sent = not words or words[0] in ("launch", "run", *ros2.VERBS) or words[0] not in _COMMANDS
     if sent and (problem := encoding_problem(words)):
         print(f"bot-console: {problem}", file=sys.stderr)

@@ -18,6 +18,7 @@ from bot_console.tui.console.command_gate import CLOSED
 from bot_console.tui.console.launch.external_programs import ExternalPrograms
 from bot_console.tui.console.model import Capabilities, LaunchInfo, LinkInfo, Severity
 from bot_console.tui.console.node_ports import LABEL, NodePorts
+from bot_console.tui.console.own_context import WITHOUT_LOG_FILE
 
 if TYPE_CHECKING:
     from bot_console.tui.console.graph.type_discovery import TypeSource
@@ -131,7 +132,7 @@ class RosConsole(NodePorts):
         from rclpy.context import Context
 
         context = Context()
-        rclpy.init(args=[], context=context)
+        rclpy.init(args=WITHOUT_LOG_FILE, context=context)
         robot = DriveNode(context, self._report_fault, self._stop_means)
         robot.start()
         return robot

@@ -10,7 +10,10 @@ from pathlib import Path
 
 import pytest
 import rclpy
+from bot_console.tui.cli.main import main
+from bot_console.tui.cli.verbs import stop
 from bot_console.tui.cli.verbs.stop import run
+from bot_console.tui.console.robot.stop_link import StopInfo
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from rclpy.qos import DurabilityPolicy, QoSProfile
 from systems import Program, System, kill_composed, system
@@ -211,6 +214,15 @@ def test_stop_and_release_work_without_a_screen(bench: Bench) -> None:
     assert ": the arm swings" in bench.launch.stdout
     assert bench.command("release").exit == 0
     assert bench.drives()
+
+
+@pytest.mark.parametrize("words", [["too", "close"], ["-fire"], ["--all"], ["--", "-h"], ["-1", "m"]])
+def test_any_words_are_the_reason_of_a_stop(words: list[str], monkeypatch: pytest.MonkeyPatch) -> None:
+    given: list[str] = []
+    monkeypatch.setattr(stop, "ask", lambda verb, reason, **_: (given.append(reason), (True, StopInfo()))[1])
+    monkeypatch.setattr(stop, "reach_system", lambda: "")
+    monkeypatch.setenv("BOT_CONSOLE_DISTRO", "unknown")
+    assert main(["stop", *words]) == 0 and given == [" ".join(words)]
 
 
 def test_stop_without_acknowledgement_is_reported() -> None:

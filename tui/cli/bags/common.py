@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from bot_console.tui.console.own_context import WITHOUT_LOG_FILE
 from bot_console.tui.session.embedded.reaching import reach_system
 
 if TYPE_CHECKING:
@@ -72,7 +73,7 @@ def join_domain(name: str = "rosbag2_player", *, machine: bool = False) -> Any:
     unreachable = "" if machine else reach_system()
     if unreachable:
         return unreachable
-    rclpy.init(args=[])
+    rclpy.init(args=WITHOUT_LOG_FILE)
     return rclpy.create_node(name, start_parameter_services=False)
 
 

@@ -11,6 +11,7 @@ from bot_console.tui.cli.doctor.command_timeout import base_finding
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.cli.doctor.spinning import spin_for
 from bot_console.tui.console.graph.pairs import hash_of, unheard
+from bot_console.tui.console.own_context import WITHOUT_LOG_FILE
 from rclpy.node import Node
 
 DISCOVERY_S = 1.5
@@ -26,7 +27,7 @@ def node_findings(
 
     With `alone_hint` the nodes are counted, and the hint is given if there are no others.
     """
-    rclpy.init(args=[])
+    rclpy.init(args=WITHOUT_LOG_FILE)
     node = rclpy.create_node("_bot_console_doctor", enable_rosout=False, start_parameter_services=False)
     try:
         spin_for(node, settle)

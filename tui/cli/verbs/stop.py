@@ -42,10 +42,12 @@ def run(verb: str, words: list[str]) -> int:
     what = f"{verb.capitalize()} the robot, and wait for its acknowledgement."
     parser = argparse.ArgumentParser(f"bot-console {verb}", description=what)
     if verb == "stop":
-        parser.add_argument("reason", nargs="?", default="ALL STOP", help="why, shown to others (default: ALL STOP)")
+        parser.add_argument("reason", nargs="*", help="why, shown to others (default: ALL STOP)")
     else:
         parser.add_argument("--all", action="store_true", help="also release what others have stopped")
-    given = parser.parse_args(words)
+    # Whatever the words are, a robot that drives is stopped instead of refusing them.
+    is_reason = verb == "stop" and words[:1] not in (["-h"], ["--help"])
+    given = argparse.Namespace(reason=" ".join(words) or "ALL STOP") if is_reason else parser.parse_args(words)
     alone = reach_system()
     if alone:
         print(alone, file=sys.stderr)

@@ -17,6 +17,7 @@ from bot_console.tui.console.bags.recorder import CLOCK, PACE_S, Recorder, remar
 from bot_console.tui.console.bags.recording_sinks import BagSink
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.command_gate import done
+from bot_console.tui.console.own_context import WITHOUT_LOG_FILE
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from rclpy.context import Context
 from rosidl_runtime_py.utilities import get_message
@@ -130,7 +131,7 @@ class Recordings:
 
     def _serve(self) -> None:
         context = Context()
-        rclpy.init(args=[], context=context)
+        rclpy.init(args=WITHOUT_LOG_FILE, context=context)
         node: Any = rclpy.create_node(
             NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
         )

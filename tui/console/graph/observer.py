@@ -11,6 +11,7 @@ from collections.abc import Callable, Sequence
 from typing import TYPE_CHECKING
 
 import rclpy
+from bot_console.tui.console.own_context import WITHOUT_LOG_FILE
 from rclpy.context import Context
 from rclpy.node import Node
 
@@ -84,7 +85,7 @@ def _unnamed(node: Node) -> int:
 def _new_participant(like: Node) -> tuple[Node, Callable[[], None]]:
     """Create a node with its own context, and so its own participant."""
     context = Context()
-    rclpy.init(args=[], context=context, domain_id=like.context.get_domain_id())
+    rclpy.init(args=WITHOUT_LOG_FILE, context=context, domain_id=like.context.get_domain_id())
     node = rclpy.create_node(
         NAME, context=context, use_global_arguments=False, enable_rosout=False, start_parameter_services=False
     )

@@ -44,6 +44,10 @@ MIN_REPEAT_S = 0.05
 """Minimum seconds between two copies of a stop, for a lock that keeps reporting that it does not have it."""
 
 
+MAX_NAME_CHARS = 200
+"""Maximum characters of a holder and a key: locks cut off the rest, and would report the stop as somebody else's."""
+
+
 @dataclass(frozen=True, slots=True)
 class StopInfo:
     """What is known of the stop: whether it is requested or reported, acknowledged by every lock, by whom and why."""
@@ -87,8 +91,8 @@ class StopLink:
     def __init__(self, node: Node, holder: str = "", key: str = "") -> None:
         """`key` distinguishes this requester's stops from those of others; by default it is random."""
         self._node = node
-        self.holder = encodable(holder) or f"bot-console of {user()} (pid {os.getpid()})"
-        self._key = encodable(key) or uuid.uuid4().hex
+        self.holder = encodable(holder)[:MAX_NAME_CHARS] or f"bot-console of {user()} (pid {os.getpid()})"
+        self._key = encodable(key)[:MAX_NAME_CHARS] or uuid.uuid4().hex
         self._watching: dict[str, Any] = {}
         self._watches: dict[str, object] = {}
         """An object for each topic that distinguishes its present subscription from earlier ones."""

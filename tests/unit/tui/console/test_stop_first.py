@@ -19,6 +19,7 @@ from bot_console.tui.console.robot.drive_link import DriveLink
 from bot_console.tui.console.robot.drive_node import DriveNode
 from bot_console.tui.console.robot.pose_and_trail import WorldWatch
 from bot_console.tui.console.ros_console import RosConsole
+from bot_console.tui.session.reached_stop import ReachedStop
 from bot_console.tui.widgets.status_bar import status_text
 from diagnostic_msgs.msg import DiagnosticArray
 from rigs import TIMEOUT_S, until
@@ -66,6 +67,17 @@ def test_a_stop_reaches_the_robot_whatever_else_fails(
     assert "ALL STOP held" in status_text(console.snapshot())
     console.drive.stop(False)
     until(lambda: not base.is_held(), "the release")
+
+
+def test_log_files_that_cannot_be_written_prevent_no_stop(
+    console: RosConsole, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path / "file" / "log"))
+    (tmp_path / "file").write_text("no folder")
+    with ReachedStop("_bot_console_stop", "anna") as reached:
+        assert reached.info.locks == 0
+    console.start()
+    assert console.wait_ready(TIMEOUT_S) and console.snapshot().problem == ""
 
 
 @pytest.mark.parametrize("part", ["the history", "reading the history", "the profiles"])

@@ -50,6 +50,18 @@ def test_a_stop_is_confirmed_once_every_lock_has_acknowledged_it(rig: Rig) -> No
     assert not (rig.link.info.stopped or arbiter.lock.held or base.lock.held)
 
 
+def test_requester_with_an_overlong_name_recognises_its_own_stop(rig: Rig) -> None:
+    arbiter, link = rig.lock("safety_monitor"), rig.console("other", "h" * 300, "k" * 300)
+    rig.settle()
+    link.stop("the arm swings")
+    rig.settle()
+    (stop,) = link.info.stops
+    assert stop.here and stop.holder == link.holder
+    link.release()
+    rig.settle()
+    assert not arbiter.lock.held
+
+
 @pytest.mark.parametrize("cleans", [True, False], ids=["with the text replaced", "without it"])
 def test_text_that_cannot_be_encoded_does_not_prevent_a_stop(
     cleans: bool, rig: Rig, monkeypatch: pytest.MonkeyPatch
