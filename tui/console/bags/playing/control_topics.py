@@ -36,7 +36,7 @@ STOP_WORDS = frozenset(
 `SURE_WORDS` count whatever the type, the others only if the type is not that of a measurement.
 """
 WORD = re.compile(r"[A-Z]?[a-z]+|[A-Z]+(?![a-z])")
-"""A word of a name like `e_stop2` or `emergencyStop`."""
+"""A word of a topic name, which may be numbered or in camel case."""
 STOP_FOLDER = "emergency_stop"
 FIGURES = re.compile(r"(std_msgs/msg/(U?Int|Float)|sensor_msgs/msg/(?!Joy$)|nav_msgs/msg/Odometry)")
 """Types of measurements: a counter named `stops`, or a laser scan, neither locks nor commands anything."""
