@@ -91,5 +91,6 @@ class ConsoleNode:
         self._ports.parameters.follow(graph)
         self._world.follow(graph)
         self._ports.topics.follow(graph)
+        self._ports.plots.follow(graph)
         self._ports.sensors.follow(graph)
         self._lifecycle.follow(graph)

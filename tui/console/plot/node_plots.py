@@ -29,6 +29,11 @@ class NodePlots:
         """Provide the collector, once the system has been reached."""
         self._watch = watch
 
+    def follow(self, graph: GraphInfo) -> None:
+        """Process a changed graph; called by the executor."""
+        if self._watch is not None:
+            self._watch.follow(graph)
+
     def record_parameter(self, node: str, name: str, value: Value) -> None:
         """Record a parameter's new value."""
         if self._watch is not None:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import threading
 import time
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from typing import Any
 
 from bot_console.tui.console.answer import Answer
@@ -15,7 +16,7 @@ from bot_console.tui.console.plot.paths import example, message_class, number_pa
 from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.console.plot.series import Series, parse_path, reader
 from bot_console.tui.console.topics.meters import Meter
-from bot_console.tui.console.topics.offered_topics import offered_qos
+from bot_console.tui.console.topics.offered_topics import Offer, offered_qos
 from bot_console.tui.text.expression.tree import is_parameter, topic_of_rate
 from rclpy.node import Node
 from rclpy.qos import QoSProfile, ReliabilityPolicy
@@ -33,20 +34,38 @@ class _WatchedSeries:
 
     def __init__(self) -> None:
         self.series = Series()
+        self.source: _Source | None = None
+        self.qos: QoSProfile | None = None
         self.subscription: Any = None
         self.timer: Any = None
         self.problem = ""
         self.requesters: set[str] = set()
 
 
+@dataclass(frozen=True, slots=True)
+class _Source:
+    """The topic of a watched series, and what takes its messages; `raw` ones are serialized."""
+
+    topic: str
+    kind: type
+    take: Callable[..., None]
+    raw: bool = False
+
+    def profile(self, offer: Offer) -> QoSProfile:
+        """The QoS to subscribe with: only a reliable, transient local subscription gets the value of a latched topic."""
+        return offer.profile() if self.raw or offer.latched else PLOT_QOS
+
+
 class PlotWatch:
-    """Collects watched series; `watch` may be called from any thread."""
+    """Collects watched series; `watch` and `unwatch` may be called from any thread."""
 
     def __init__(self, node: Node) -> None:
         self._node = node
         self._start = time.monotonic()
         self._started_at = time.time_ns()
         self._watched: dict[str, _WatchedSeries] = {}
+        self._subscribing = threading.Lock()
+        """Held while subscriptions are made and destroyed."""
         self._other_clock: float | None = None
         """Offset added to the times of a simulator's clock, so that its messages are shown beside others."""
 
@@ -96,7 +115,8 @@ class PlotWatch:
         if "[" not in rest:
             read(kind())
         watched = self._watched[path] = _WatchedSeries()
-        watched.subscription = self._node.create_subscription(kind, topic, self._collector(watched, read), PLOT_QOS)
+        watched.source = _Source(topic, kind, self._collector(watched, read))
+        self.follow(graph)
 
     def _watch_rate(self, path: str, topic: str, graph: GraphInfo) -> None:
         """Collect the rate of a topic by counting its messages without deserializing them."""
@@ -110,10 +130,25 @@ class PlotWatch:
             if rate is not None:
                 watched.series.add(self.now(), rate)
 
-        qos = offered_qos(graph, topic).profile()
-        watched.subscription = self._node.create_subscription(message_class(types[0]), topic, meter.take, qos, raw=True)
+        watched.source = _Source(topic, message_class(types[0]), meter.take, raw=True)
         watched.timer = self._node.create_timer(RATE_POLL_S, poll)
         self._watched[path] = watched
+        self.follow(graph)
+
+    def follow(self, graph: GraphInfo) -> None:
+        """Subscribe to topics that are not subscribed yet, or whose publishers offer another QoS than before."""
+        with self._subscribing:
+            for watched in tuple(self._watched.values()):
+                source = watched.source
+                qos = source.profile(offered_qos(graph, source.topic)) if source else None
+                if source is None or qos is None or qos == watched.qos:
+                    continue
+                before, watched.qos = watched.subscription, qos
+                watched.subscription = self._node.create_subscription(
+                    source.kind, source.topic, source.take, qos, raw=source.raw
+                )
+                if before is not None:
+                    self._node.destroy_subscription(before)
 
     def _collector(self, watched: _WatchedSeries, read: Callable[[Any], float]) -> Callable[[Any], None]:
         def collect(message: Any) -> None:
@@ -149,7 +184,9 @@ class PlotWatch:
         if watched is None:
             return
         watched.requesters.discard(requester)
-        if not watched.requesters:
+        if watched.requesters:
+            return
+        with self._subscribing:
             del self._watched[path]
             if watched.subscription is not None:
                 self._node.destroy_subscription(watched.subscription)

@@ -94,7 +94,7 @@ def test_suggested_paths_are_fields_then_elements_then_array_functions():
 
 def test_the_colon_of_a_slice_does_not_mark_a_parameter() -> None:
     made: list[str] = []
-    node: Any = SimpleNamespace(create_subscription=lambda kind, topic, take, qos: made.append(topic))
+    node: Any = SimpleNamespace(create_subscription=lambda kind, topic, take, qos, raw: made.append(topic))
     graph = GraphInfo(topics=(Endpoint("/scan", ("sensor_msgs/msg/LaserScan",)),))
     answer = PlotWatch(node).watch("/scan/ranges[80:100].min()", graph, {})
     assert answer.ok and made == ["/scan"], answer.text
