@@ -52,7 +52,7 @@ class _Source:
     raw: bool = False
 
     def profile(self, offer: Offer) -> QoSProfile:
-        """The QoS to subscribe with: only a reliable, transient local subscription gets the value of a latched topic."""
+        """The QoS to subscribe with: the value of a latched topic reaches only reliable, transient local ones."""
         return offer.profile() if self.raw or offer.latched else PLOT_QOS
 
 

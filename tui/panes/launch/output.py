@@ -34,8 +34,7 @@ class ProcessOutput(Picture):
         self._drawn = drawn
         width = self.size.width
         what = f"output of {name}" if newest else f"{name} has logged and printed nothing yet"
-        title = f" {what} " if name else ""
-        head: Line = ((cut(title.center(width, "─"), width), "dim"),)
+        head = rule(what if name else "", width)
         shown: list[Line] = [
             ((_text(each, width, named=named), STYLES.get(each.record.severity, "")),) for each in newest
         ]
@@ -59,6 +58,11 @@ class ProcessOutput(Picture):
                 kept = kept[-max(1, room - room // 3) :] if room else []
         self._first = kept[0].record.seq if kept else 0
         return kept
+
+
+def rule(title: str, width: int) -> Line:
+    """A line across the pane with a title in its middle."""
+    return ((cut((f" {title} " if title else "").center(width, "─"), width), "dim"),)
 
 
 def _text(line: OutputLine, width: int, *, named: bool) -> str:

@@ -24,7 +24,7 @@ from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.launch.follow import Follower
-from bot_console.tui.panes.launch.output import STYLES, ProcessOutput
+from bot_console.tui.panes.launch.output import STYLES, ProcessOutput, rule
 from bot_console.tui.panes.launch.rows import ProcessRows, Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.panes.pane import answer_of
@@ -179,6 +179,8 @@ class LaunchPane(ListPane):
         if stamp is not None:
             lines = [*lines[1 - MAX_EVENTS :], ((f" ◆ {clock_text(stamp)}", "accent"),)]
         lines = lines[-MAX_EVENTS_IN_FEW_ROWS:] if self.size.height < MIN_ROWS_FOR_ALL_EVENTS else lines
+        if lines and self.has_class("with-output"):
+            lines.insert(0, rule("newest events, t lists all", width))
         events.styles.height = len(lines)
         events.set_lines(lines)
 
@@ -247,7 +249,10 @@ class LaunchPane(ListPane):
     def _make_room(self) -> None:
         """Show the output if there are processes and the pane is high enough."""
         info = self._info or LaunchInfo()
+        before = self.has_class("with-output")
         self.set_class(self.size.height >= MIN_ROWS_FOR_OUTPUT and bool(info.processes), "with-output")
+        if self.has_parts and self.has_class("with-output") != before:
+            self._show_events()
 
     def action_fold(self, closed: bool) -> None:
         """Fold or unfold the group at the cursor."""

@@ -27,14 +27,12 @@ STATES = {
 
 MIN_CELLS_FOR_WORDS = 110
 """Minimum cells of a row that writes `error` and `warning` out."""
-MIN_CELLS_FOR_NODES = 90
-"""Minimum cells of a row that names the nodes of a process."""
+MIN_CELLS_FOR_NODES = 12
+"""Minimum cells left in a row that names the nodes of a process."""
 MIN_CELLS_FOR_TRACE = 84
 """Minimum cells of a row that shows the CPU usage over time."""
-STATE_AND_PID_CELLS = 20
-"""Cells of the columns after the name that are always visible."""
-RESTARTS_CELLS = 5
-"""Cells of the number of restarts."""
+STATE_CELLS, PID_CELLS, RESTARTS_CELLS = 12, 8, 5
+"""Cells of the state, and of the process id and the number of restarts if any process has one."""
 
 
 @dataclass(frozen=True)
@@ -118,6 +116,10 @@ def _node_words(process: ProcessInfo) -> str:
     return sanitize("  " + " ".join(short_names(process.nodes))) if process.nodes else ""
 
 
+def _restarts(process: ProcessInfo) -> str:
+    return f"↻{process.restarts}" if process.restarts or process.restart_policy else ""
+
+
 def _cells_of_counts(*counts: str) -> int:
     """The cells of these numbers of errors and warnings, each with a gap before it."""
     return sum(2 + len(each) for each in counts if each)
@@ -182,20 +184,23 @@ class ProcessRows(ItemList[Row]):
 
     def _process(self, process: ProcessInfo, indent: str, width: int) -> list[Segment]:
         glyph, style = STATES[process.state]
-        head, names = f"{indent}{glyph}", self._names(width)
+        head, (pids, restarts) = f"{indent}{glyph}", self._optional_cells()
+        names = self._names(width - STATE_CELLS - pids)
         name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
-        columns = [f"  {process.state.value:<10}", f"{process.pid or '':>8}"]
-        columns.append(f"{f'↻{process.restarts}' if process.restarts or process.restart_policy else '':>5}")
+        columns = [f"  {process.state.value:<10}", f"{process.pid or '':>{pids}}" if pids else ""]
+        columns.append(f"{_restarts(process):>{restarts}}" if restarts else "")
         trace, errors, warnings = _activity_texts(self._follower.of(process.key), width)
         states = max((len(self._states(each.process)) for each in self.rows if each.process), default=0)
         count_cells = self._count_cells(width)
-        room = width - names - STATE_AND_PID_CELLS - RESTARTS_CELLS - states - count_cells
+        fixed = names + STATE_CELLS + pids + restarts + count_cells
+        room = width - fixed - states
         usage = "".join((self._states(process).ljust(states), *self._usage(process, trace, width, room)))
         exit_code = "" if process.exit_code is None else f"  exit {process.exit_code}"
-        nodes = _node_words(process) if width >= MIN_CELLS_FOR_NODES else ""
         problem = f"  {sanitize(process.problem)}" if process.problem and (not exit_code or width >= 60) else ""
         end = exit_code.ljust(len(usage)) if not usage.strip() else exit_code + usage
-        used = names + STATE_AND_PID_CELLS + RESTARTS_CELLS + cell_len(end) + count_cells
+        used = fixed + cell_len(end)
+        left = width - used - cell_len(problem)
+        nodes = cut(_node_words(process), left) if left >= MIN_CELLS_FOR_NODES else ""
         if problem and used + cell_len(nodes + problem) > width:
             # In a row that is too narrow, the problem replaces empty columns and everything after them.
             end, nodes, problem = (end if usage.strip() else exit_code) + problem, "", ""
@@ -243,8 +248,16 @@ class ProcessRows(ItemList[Row]):
         fitting = [each <= room for each in accumulate(widths)]
         return [each.ljust(cells) for each, cells, fits in zip(columns, widths, fitting, strict=False) if fits]
 
-    def _names(self, width: int) -> int:
-        """Cells of the name column: as many as the longest name needs, if state and process id still fit."""
+    def _optional_cells(self) -> tuple[int, int]:
+        """Cells of the process ids and of the numbers of restarts; 0 if no process has one."""
+        every = [each.process for each in self.rows if each.process is not None]
+        return (
+            PID_CELLS if any(each.pid for each in every) else 0,
+            RESTARTS_CELLS if any(_restarts(each) for each in every) else 0,
+        )
+
+    def _names(self, room: int) -> int:
+        """Cells of the name column: as many as the longest name needs, up to `room`."""
         labels = ((each.depth, each.process.label) for each in self.rows if each.process is not None)
         longest = max((2 * depth + 2 + cell_len(sanitize(label)) for depth, label in labels), default=0)
-        return max(14, min(longest, width - STATE_AND_PID_CELLS))
+        return max(14, min(longest, room))
