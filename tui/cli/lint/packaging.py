@@ -7,6 +7,7 @@ from __future__ import annotations
 import ast
 import configparser
 import os
+import re
 import sys
 from collections.abc import Collection, Iterator
 from pathlib import Path
@@ -42,6 +43,7 @@ def obstacles(package: Package) -> list[Obstacle]:
     if package.build_type == "ament_python" and not package.problem and (package.folder / "setup.py").is_file():
         found += _setup_cfg(package)
         found += _setup_name(package)
+        found += _entries(package)
         found += _packages(package)
         found += [*_data_files(package)] or _not_installed(package)
     found += _programs(package)
@@ -49,6 +51,49 @@ def obstacles(package: Package) -> list[Obstacle]:
         for path in sorted(folder.glob("*.py")) if folder.is_dir() else ():
             found += shadowing_files(path)
     return sorted(found)
+
+
+def defects(package: Package) -> list[Obstacle]:
+    """What keeps a package from working anywhere: files that cannot be read, executables whose module is missing."""
+    if package.problem:
+        place, line, problem = _located(package.problem, package.folder)
+        return [Obstacle(place, line, problem, "correct it, then run lint again")]
+    setup, targets = package.folder / "setup.py", package.setup.console_scripts if package.setup is not None else {}
+    return [
+        Obstacle(setup, _entry_line(package), f"{name} is {entry.module}:{entry.function}, and there is no such module",
+                 "correct the entry, or add the file")
+        for name, entry in package.executables.items()
+        if ":" in targets.get(name, "")
+        and (first := package.modules.get(entry.module.partition(".")[0])) is not None
+        and not _has_module(first, entry.module.split(".")[1:])
+    ]  # fmt: skip
+
+
+def _located(problem: str, folder: Path) -> tuple[Path, int, str]:
+    """The file and the line with which the text of a problem begins, and the rest of the text."""
+    problem = " ".join(problem.split())  # configparser writes several lines
+    found = re.match(rf"{re.escape(str(folder))}/([^/:]+)(?::(\d+))?: ", problem)
+    if found is None:
+        return folder, 0, problem
+    return folder / found[1], int(found[2] or 0), problem[found.end() :]
+
+
+def _has_module(folder: Path, parts: list[str]) -> bool:
+    """Whether a Python package has a module; a `folder` that is a file is itself the module."""
+    path = folder.joinpath(*parts)
+    return path.is_dir() or path.with_name(f"{path.name}.py").is_file() or (path.is_file() and not parts)
+
+
+def _entry_line(package: Package) -> int:
+    return package.setup.lines.get("entry_points", 0) if package.setup is not None else 0
+
+
+def _entries(package: Package) -> Iterator[Obstacle]:
+    """Entry points without a function, for which the script of an installed package calls the module."""
+    for name, target in package.setup.console_scripts.items() if package.setup is not None else ():
+        if ":" not in target:
+            yield Obstacle(package.folder / "setup.py", _entry_line(package), f"'{name} = {target}' names no function",
+                           f"write '{name} = module:function'")  # fmt: skip
 
 
 def shadowing_files(path: Path) -> Iterator[Obstacle]:

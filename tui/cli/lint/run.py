@@ -16,7 +16,7 @@ from bot_console.runtime.workspace.package import read_package
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
 from bot_console.tui.cli.lint.launch_packages import unknown_packages
-from bot_console.tui.cli.lint.packaging import obstacles
+from bot_console.tui.cli.lint.packaging import defects, obstacles
 from bot_console.tui.cli.lint.parameter_declarations import DeclaredNames
 from bot_console.tui.cli.lint.parameter_declarations import lint as lint_python
 from bot_console.tui.cli.lint.parameter_file import dead_values, looks_like_parameter_file, rejections
@@ -26,6 +26,8 @@ from bot_console.tui.session.embedded.reaching import reach_system
 INDEX = "course.md"
 """The file that makes a folder a course."""
 XML_LAUNCH = (".launch.xml", "_launch.xml")
+HERE_ONLY, NOWHERE = "works here, but not on ROS 2", "works nowhere"
+"""Kinds of faults of packages."""
 READ_TIMEOUT_S = 5.0
 """Seconds to read the parameters of running nodes."""
 
@@ -86,7 +88,11 @@ def _file_findings(what: str) -> tuple[str, list[LintFinding]]:
     if not files and not Path(what, "package.xml").is_file():
         return f"there is no file, folder or package '{what}' with Python or YAML files in it", []
     if files != [Path(what)]:
-        return "", sorted([*lint_files(files), *_package_findings(files, Path(what))])
+        found = lint_files(files)
+        lines = {(each.place, each.line) for each in found}  # a setup.py that is not valid Python is known already
+        others = [each for each in _package_findings(files, Path(what)) if each.fault != NOWHERE or
+                  (each.place, each.line) not in lines]  # fmt: skip
+        return "", sorted([*found, *others])
     # The parameters that a single file gives to nodes are compared with those that its package declares.
     package = folder_of_package(files[0])
     beside = [each for each in files_of(str(package)) if each.resolve() != files[0].resolve()] if package else []
@@ -101,10 +107,12 @@ def _package_findings(files: Iterable[Path], where: Path) -> Iterator[LintFindin
     named = where.resolve()
     folders |= {named} if (where / "package.xml").is_file() else set()
     for folder in folders:
-        for each in obstacles(read_package(folder)):
+        package = read_package(folder)
+        found = [*((HERE_ONLY, each) for each in obstacles(package)), *((NOWHERE, each) for each in defects(package))]
+        for fault, each in found:
             # Paths are relative to the folder as the user named it, like those of the other findings.
             file = where / each.file.relative_to(named) if named in each.file.parents else each.file
-            yield LintFinding(str(file), each.line, "works here, but not on ROS 2", each.problem, each.fix)
+            yield LintFinding(str(file), each.line, fault, each.problem, each.fix)
 
 
 def files_of(what: str) -> list[Path]:

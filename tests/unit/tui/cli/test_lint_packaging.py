@@ -7,7 +7,8 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.workspace.package import read_package
-from bot_console.tui.cli.lint.packaging import obstacles, shadowing_files
+from bot_console.tui.cli.lint.packaging import defects, obstacles, shadowing_files
+from bot_console.tui.cli.lint.run import run
 
 SETUP = """\
 from glob import glob
@@ -155,6 +156,34 @@ def test_another_name_in_setup_is_named(folder: Path) -> None:
     edit(folder, "name=package_name", "name='q'")
     (only,) = obstacles_in(folder)
     assert only.startswith("setup.py:5: setup() is called with the name 'q'") and only.endswith("write name='p'")
+
+
+def test_entry_point_without_a_function_is_named(folder: Path) -> None:
+    edit(folder, "p.talk:main", "p.talk")
+    (only,) = obstacles_in(folder)
+    assert only == "setup.py:11: 'talk = p.talk' names no function; write 'talk = module:function'"
+
+
+@pytest.mark.parametrize(
+    ("file", "old", "new", "message"),
+    [
+        ("package.xml", "</package>", "</packag", "package.xml: unclosed token"),
+        ("setup.py", "'talk = p.talk:main'", "'talk = p.talk:main' 'b = p.b:main'", "setup.py: 'talk = p.talk:mainb"),
+        ("setup.py", "name = 'p'", "name = 'p", "setup.py:3: unterminated string literal"),
+        ("setup.cfg", "[install]", "[install", "setup.cfg: Source contains parsing errors"),
+        ("setup.py", "p.talk:main", "p.tlak:main", "setup.py:11: talk is p.tlak:main, and there is no such module"),
+    ],
+)
+def test_package_that_works_nowhere_is_named(
+    folder: Path, file: str, old: str, new: str, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert defects(read_package(folder)) == []
+    edit(folder, old, new, file)
+    (only,) = defects(read_package(folder))
+    assert str(only).replace(f"{folder}/", "").startswith(message)
+    assert run([str(folder)]) == 1
+    (line,) = capsys.readouterr().out.splitlines()
+    assert line.startswith(f"{folder}/{file}")
 
 
 @pytest.mark.skipif(os.name != "posix", reason="needs POSIX permissions")
