@@ -203,7 +203,7 @@ class ProcessRows(ItemList[Row]):
         nodes = cut(_node_words(process), left) if left >= MIN_CELLS_FOR_NODES else ""
         if problem and used + cell_len(nodes + problem) > width:
             # In a row that is too narrow, the problem replaces empty columns and everything after them.
-            end, nodes, problem = (end if usage.strip() else exit_code) + problem, "", ""
+            end, nodes, problem, count_cells = (end if usage.strip() else exit_code) + problem, "", "", 0
         columns.append(end)
         plain = None if process.state is ProcessState.RUNNING else self.row_style(style)
         loud = [Segment(name[: len(head)], self.row_style(style)), Segment(name[len(head) :], plain)]
