@@ -122,7 +122,7 @@ def _failure(words: Sequence[str], activity: Activity) -> str:
     ran = [each for each in activity.commands if _in_order(words, each.words)]
     if any(each.failed for each in ran):
         return ""
-    went_on = "; it did not fail" if any(each.code is not None for each in ran) else ""
+    went_on = "; it did not fail" if any(each.is_working for each in ran) else ""
     return f"waiting for: the command {command_text(words)}, to see it fail{went_on}"
 
 

@@ -60,7 +60,7 @@ def chapter_1(at: Student) -> None:
     at.does(id)
 
     # It is the last value that was seen, which the short life of the node before may have hidden.
-    at.reads("waiting for: speed with the value 2.0; it is 1.", "speed:=2 is an integer: write 2.0")
+    at.reads("waiting for: speed with the value 2.0; it is 1.", "2 is an integer: write 2.0")
     one.start(at.listing("start-it-with-another-value"))
     at.does("start-it-with-another-value")
 

@@ -69,10 +69,10 @@ MISTAKES: dict[str, Mistake] = {
         "it did not fail: end the node first (Ctrl-C)", command("ros2 param get /simple_robot speed")
     ),
     "an-integer-is-not-a-double": Mistake(
-        "to see it fail: end the node that runs (Ctrl-C)", command("run a.py --ros-args -p speed:=1.5")
+        "it did not fail: declare speed as 1.0, end the node", command("run a.py --ros-args -p speed:=2", None)
     ),
     "start-it-with-another-value": Mistake(
-        "it is 1.0: speed:=2 is an integer: write 2.0", parameters=node("simple_robot", "speed")
+        "it is 1.0: 2 is an integer: write 2.0, and declare", parameters=node("simple_robot", "speed")
     ),
     "the-same-on-a-robot": Mistake("max_speed to be set to 0.6; it was set to 0.5", changes=[change("max_speed", 0.5)]),
     "say-what-a-parameter-means": Mistake(
