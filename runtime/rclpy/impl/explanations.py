@@ -13,6 +13,7 @@ from bot_console.runtime.process.notices import notify
 from bot_console.runtime.process.stack_frames import is_shipped, line_outside
 from bot_console.runtime.programs.hints import at, is_read, read_before_declared, wrong_type
 from bot_console.runtime.rmw.parameter_places import place_of
+from bot_console.runtime.rosidl.conversion import FieldTypeError
 from rclpy.impl.callables import is_coroutine
 
 WRONG_PARAMETER = (
@@ -50,6 +51,8 @@ def explain(exception: BaseException) -> str | None:
     for is_it, text in _KNOWN:
         if is_it(exception):
             return f"{_users_line(exception)}{text}"
+    if text := _integer_in_range(exception):
+        return text
     text = _wrong_type(exception) or _refused_value(exception) or _not_declared(exception)
     if not text:
         return None
@@ -107,6 +110,17 @@ def _wrong_type(exception: Any) -> str:
     found = _EXPECTED.search(str(exception.args[0]))
     given = exception.param
     return wrong_type(given.name, _in_yaml(given.value), found[1], given.type_.name) if found else ""
+
+
+def _integer_in_range(exception: object) -> str:
+    """Return how to write a bound of a range; it is noticed only when somebody asks for the parameter's description."""
+    if not isinstance(exception, FieldTypeError) or not is_read():
+        return ""
+    found = re.fullmatch(r"descriptors\[\d+\]\.floating_point_range\[\d+\]\.(\w+)", exception.field)
+    bound, value = found[1] if found else "", exception.value
+    if not bound or type(value) is not int or abs(value) >= 10**15:
+        return ""
+    return f"{bound}={value} in a FloatingPointRange of this node is an integer: write {bound}={value}.0"
 
 
 def _refused_value(exception: object) -> str:

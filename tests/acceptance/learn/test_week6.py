@@ -81,7 +81,7 @@ def restart(at: Student) -> None:
 
 def chapter_2(at: Student) -> None:
     two = at.shells[1]
-    at.reads("speed has no description: give declare_parameter a", "start the node again after you have changed it")
+    at.reads("speed has no description: give declare_parameter a", "then start the node again")
     fragment = at.listing("say-what-a-parameter-means")
     limit = "            floating_point_range=[FloatingPointRange(from_value=0.0, to_value=5.0)],\n"
     at.merge(NODE, fragment.replace(limit, ""), '        self.declare_parameter("speed", 1.0)\n')

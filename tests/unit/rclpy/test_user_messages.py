@@ -9,11 +9,14 @@ import pytest
 import rclpy
 from bot_console.runtime.process.crashes import explanation
 from bot_console.runtime.process.notices import on_notice
+from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor
+from rcl_interfaces.srv import DescribeParameters
 from rclpy.context import Context
 from rclpy.exceptions import InvalidParameterTypeException
 from rclpy.impl import command_line, explanations
 from rclpy.impl import unused_overrides as unused
 from rclpy.impl.unused_overrides import unused_overrides
+from rclpy.serialization import serialize_message
 
 
 @pytest.fixture(params=[True, False])
@@ -55,6 +58,27 @@ def test_value_of_another_type_gets_a_hint(ros: Any, read: bool, value: str, def
         node.declare_parameter("p", default)
     message = explanation(refused.value) or ""
     assert message.endswith(reported) if read else message == ""
+
+
+@pytest.mark.parametrize(
+    ("bounds", "reported"),
+    [
+        ({"to_value": 5}, "to_value=5 in a FloatingPointRange of this node is an integer: write to_value=5.0"),
+        (
+            {"from_value": -1, "to_value": 5.0},
+            "from_value=-1 in a FloatingPointRange of this node is an integer: write",
+        ),
+        ({"from_value": "0.0", "to_value": 5.0}, ""),
+    ],
+)
+def test_integer_in_a_range_of_doubles_gets_a_hint(read: bool, bounds: dict[str, Any], reported: str) -> None:
+    described = DescribeParameters.Response(
+        descriptors=[ParameterDescriptor(), ParameterDescriptor(floating_point_range=[FloatingPointRange(**bounds)])]
+    )
+    with pytest.raises(TypeError) as refused:
+        serialize_message(described)
+    message = explanation(refused.value) or ""
+    assert message.startswith(reported) and bool(message) == bool(reported) if read else message == ""
 
 
 def test_undeclared_override_is_reported(ros: Any) -> None:
