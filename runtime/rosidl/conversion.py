@@ -70,13 +70,23 @@ def to_bool(message: object, field: str) -> bool:
 
 
 def to_str(message: object, field: str, limit: int = 0) -> str:
-    """Return a string of at most `limit` characters (0: any length), cut at a NUL, which ends it on the wire."""
+    """Return a string of at most `limit` characters (0: any length), cut at a NUL, which ends it on the wire.
+
+    Raises `UnicodeEncodeError` for a lone surrogate, as in names of files that are not UTF-8.
+    """
     value = getattr(message, "_" + field)
     if not isinstance(value, str):
         raise _refuse(message, field, "a string", value)
     if limit and len(value) > limit:
         raise _refuse(message, field, f"a string of at most {limit} characters", value)
-    return str(value.partition("\0")[0])
+    return str(_encodable(value).partition("\0")[0])
+
+
+def _encodable(text: str) -> str:
+    """Return the text; raises `UnicodeEncodeError` if it cannot be sent."""
+    if not text.isascii():
+        text.encode()
+    return text
 
 
 def to_octet(message: object, field: str) -> bytes:
@@ -149,7 +159,7 @@ def to_list(message: object, field: str, kind: type, size: int, bound: int, limi
         if not isinstance(value, kind) or (limit and len(value) > limit) or (kind is bytes and len(value) != 1):
             wanted = {"str": "a string", "bool": "a bool", "bytes": "bytes of length 1"}[kind.__name__]
             raise _refuse(message, f"{field}[{index}]", wanted, value)
-    return [each.partition("\0")[0] for each in values] if kind is str else list(values)
+    return [_encodable(each).partition("\0")[0] for each in values] if kind is str else list(values)
 
 
 def to_messages(message: Any, field: str, cls: Any, size: int, bound: int) -> list[Any]:

@@ -73,7 +73,7 @@ def _single(field: Field) -> list[str]:
     if kind.item in EXACT and not kind.limit:
         cls = EXACT[kind.item]
         convert = {"bool": "_to_bool", "float": "_to_float", "str": "_to_str"}[cls]
-        fits = f"value.__class__ is {cls}" + (" and '\\0' not in value" if cls == "str" else "")
+        fits = f"value.__class__ is {cls}" + (" and value.isascii() and '\\0' not in value" if cls == "str" else "")
         return [f"value = {own}", f"new._{name} = value if {fits} else {convert}(self, '{name}')"]
     if kind.limit:
         return [f"new._{name} = _to_str(self, '{name}', {kind.limit})"]

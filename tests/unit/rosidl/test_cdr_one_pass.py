@@ -73,9 +73,14 @@ def test_values_of_similar_types_are_written_like_converted_copies(message: Any,
     assert serialize(message) == serialize(message._copy_()) == serialize(same)
 
 
-def test_string_with_lone_surrogate_is_rejected() -> None:
-    with pytest.raises(UnicodeEncodeError):
-        serialize(String(data="\ud800"))
+@pytest.mark.parametrize(
+    "message",
+    [String(data="\ud800"), String(data="a\0\udcff"), ParameterValue(string_array_value=["é", "\udcff"])],
+)
+def test_string_with_lone_surrogate_is_rejected_by_copies_as_on_the_wire(message: Any) -> None:
+    for copy in (serialize, lambda value: value._copy_()):
+        with pytest.raises(UnicodeEncodeError):
+            copy(message)
 
 
 def test_array_growing_during_serialization_is_written_consistently() -> None:
