@@ -16,6 +16,7 @@ SHOW = "BOT_CONSOLE_HINTS"
 """Environment variable set for a launch's processes whose output a person reads, in a terminal or the console's log."""
 
 UNDERSCORE = "ros_parameters has one underscore, ros__parameters has two"
+RETURN_DESCRIPTION = "end it with  return LaunchDescription([...])"
 TAB = "it is indented by a tab, and YAML takes spaces alone"
 _UNSPACED = re.compile(r"^\s*(?:- )?([A-Za-z_/][\w./]*):([^\s:/#][^:#]*?)\s*(?:#.*)?$")
 
@@ -77,6 +78,11 @@ def read_before_declared(name: str, declared: Iterable[str]) -> str:
 def key_of_another_node(node: str, key: str) -> str:
     """Return the hint for a parameter file that has no section for the node."""
     return f"{node} gets no parameter of this file: its key '{key}' does not mean it; did you mean '{node}'?"
+
+
+def returns_no_description(returned: str) -> str:
+    """Return what the function of a launch file has to return, given what it returns."""
+    return f"generate_launch_description() returns {returned}: {RETURN_DESCRIPTION}"
 
 
 def unspaced_colon(line: str) -> str:

@@ -7,12 +7,15 @@ from importlib.util import module_from_spec, spec_from_loader
 from types import ModuleType
 from typing import TYPE_CHECKING
 
+from bot_console.runtime.programs.hints import returns_no_description
 from launch.launch_place import report_place
 
 if TYPE_CHECKING:
     from launch.launch_description import LaunchDescription
 
 FUNCTION = "generate_launch_description"
+USED = "get_launch_arguments_with_include_launch_description_actions"
+"""A method of launch descriptions."""
 
 
 class InvalidPythonLaunchFileError(Exception):
@@ -45,4 +48,10 @@ def _generate(python_launch_file_path: str) -> LaunchDescription:
         raise InvalidPythonLaunchFileError(
             f"launch file at '{python_launch_file_path}' does not contain the required function '{FUNCTION}()'"
         )
-    return getattr(module, FUNCTION)()
+    description = getattr(module, FUNCTION)()
+    if not hasattr(description, USED):
+        # Upstream fails where it uses the method, with the first half of this message.
+        kind = type(description).__name__
+        returned = returns_no_description("nothing" if description is None else f"a {kind}")
+        raise InvalidPythonLaunchFileError(f"'{kind}' object has no attribute '{USED}': {returned}")
+    return description

@@ -259,6 +259,8 @@ def test_print_of_an_empty_file_is_one_line(capsys: pytest.CaptureFixture[str]) 
 BAD: list[tuple[str, int, str]] = [
     ("x = 1", 1, "does not contain the required function 'generate_launch_description()'"),
     ("def generate_launch_description(): pass", 1, "'NoneType' object has no attribute"),
+    ("def generate_launch_description(): return", 1, "generate_launch_description() returns nothing: end it with"),
+    ("def generate_launch_description(): return []", 1, "generate_launch_description() returns a list: end it with"),
     ("import sys; sys.exit(7)", 7, ""),
     ("def f(:", 1, "SyntaxError"),
     ("import no_such_module", 1, "No module named 'no_such_module'"),

@@ -7,9 +7,11 @@ from collections.abc import Iterator, Mapping
 from pathlib import Path
 from xml.etree import ElementTree
 
+from bot_console.runtime.programs.hints import RETURN_DESCRIPTION
 from bot_console.tui.cli.lint.finding import LintFinding
 
 MANIFEST = "package.xml"
+FUNCTION = "generate_launch_description"
 
 
 def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[LintFinding]:
@@ -27,6 +29,22 @@ def dead_parameters(path: Path, declared: frozenset[str]) -> Iterator[LintFindin
             for name, line in _names(given):
                 if name not in declared and name != "use_sim_time" and not name.startswith("qos_overrides."):
                     yield LintFinding(str(path), line, "dead parameter", name)
+
+
+def missing_return(path: Path) -> Iterator[LintFinding]:
+    """A finding if the function of a launch file returns nothing; raises `SyntaxError` for invalid Python."""
+    for each in ast.parse(path.read_text(encoding="utf-8"), str(path)).body:
+        if isinstance(each, ast.FunctionDef) and each.name == FUNCTION and not any(_returned(each)):
+            yield LintFinding(str(path), each.lineno, "returns nothing", f"{FUNCTION}()", RETURN_DESCRIPTION)
+
+
+def _returned(node: ast.AST) -> Iterator[bool]:
+    """Whether each return has a value; those of functions inside are skipped."""
+    for each in ast.iter_child_nodes(node):
+        if isinstance(each, ast.Return):
+            yield each.value is not None
+        elif not isinstance(each, (ast.FunctionDef, ast.AsyncFunctionDef, ast.Lambda)):
+            yield from _returned(each)
 
 
 def folder_of_package(path: Path) -> Path | None:

@@ -14,7 +14,7 @@ from bot_console.runtime.workspace.builtin_package import NAME, own_package
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.runtime.workspace.package import read_package
 from bot_console.tui.cli.lint.finding import LintFinding
-from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package
+from bot_console.tui.cli.lint.launch_file import dead_parameters, folder_of_package, missing_return
 from bot_console.tui.cli.lint.launch_packages import unknown_packages
 from bot_console.tui.cli.lint.packaging import defects, obstacles
 from bot_console.tui.cli.lint.parameter_declarations import DeclaredNames
@@ -160,7 +160,7 @@ def lint_files(files: Iterable[Path], named: Path | None = None) -> list[LintFin
         found += own
         if path.stem.endswith("launch"):
             launches.append(path)
-            found += unknown_packages(path)
+            found += [*unknown_packages(path), *missing_return(path)]
         declared.nodes |= names.nodes
         declared.parameters |= names.parameters
         declared.whole = declared.whole and names.whole

@@ -198,6 +198,28 @@ def test_unknown_packages_of_launch_files_are_reported(
     assert not meant or f"did you mean '{meant}'?" in line
 
 
+@pytest.mark.parametrize(
+    ("body", "is_found"),
+    [
+        ("LaunchDescription([])", True),
+        ("return", True),
+        ("def inside():\n        return 1", True),
+        ("if more:\n        return LaunchDescription([more])", False),
+    ],
+)
+def test_launch_file_that_returns_nothing_is_reported(tmp_path: Path, body: str, is_found: bool) -> None:
+    (tmp_path / "all.launch.py").write_text(f"more = 1\n\ndef generate_launch_description():\n    {body}\n")
+    found = [each.text() for each in lint_files(files_of(str(tmp_path)))]
+    assert found == (
+        [
+            f"{tmp_path / 'all.launch.py'}:3: generate_launch_description(): returns nothing; "
+            "end it with  return LaunchDescription([...])"
+        ]
+        if is_found
+        else []
+    )
+
+
 def test_existing_packages_of_launch_files_are_not_reported(tmp_path: Path) -> None:
     for name in ("one", "two"):
         (tmp_path / name).mkdir()
