@@ -211,7 +211,7 @@ class EmergencyStop:
             both = self._file.merge(self.lock, replace_unreadable=self._unreadable and not self.lock.held)
         except StopFileError as error:
             self._unreadable = isinstance(error, UnreadableStopFileError)
-            return self._latch.stop(self._node.get_name(), _file_problem(error, self._unreadable), kept=True)
+            return self._latch.stop(self._node.get_name(), f"{error.effect}: {error}; {error.fix}", kept=True)
         changed = self._latch.follow(both)
         self._unreadable, self._filed = False, self.lock.kept
         return changed
@@ -238,10 +238,3 @@ class EmergencyStop:
     def _publish(self, question: str = "") -> None:
         state = State(self.lock, self._instance, self._latch.challenge, self.steered_by, question)
         self._states.publish(state_message(state, self._node.get_name()))
-
-
-def _file_problem(error: StopFileError, unreadable: bool) -> str:
-    """A text that says what is wrong with the stop file, and how to fix it."""
-    if unreadable:
-        return f"the kept stops are unknown: {error}; a release moves that file aside"
-    return f"stops cannot be kept: {error}; free some space, or make it and its folder writable, then release"

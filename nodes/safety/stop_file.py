@@ -28,9 +28,21 @@ TURN_POLL_S = 0.01
 class StopFileError(Exception):
     """The file cannot be read or written; the text says why."""
 
+    effect = "stops cannot be kept"
+    fix = "free some space, or make it and its folder writable, then release"
+
 
 class UnreadableStopFileError(StopFileError):
     """The file cannot be read or has other content; it is replaced only when a person releases the robot."""
+
+    effect = "the kept stops are unknown"
+    fix = "a release moves that file aside"
+
+
+class NoStopFileError(StopFileError):
+    """A folder with content or a device has been named; it must not be moved aside."""
+
+    fix = "give the nodes the path of a file (the parameter stop_file), and start them again"
 
 
 class StopFile:
@@ -101,11 +113,19 @@ class StopFile:
         except FileNotFoundError:
             return {}
         except (OSError, ValueError, RecursionError) as error:
+            if not self._is_movable():
+                raise NoStopFileError(f"{self._path} is a folder or a device") from None
             if replace_unreadable:
                 self._path.replace(f"{self._path}.unreadable")
                 return {}
             why = (error.strerror if isinstance(error, OSError) else "") or str(error)
             raise UnreadableStopFileError(f"{self._path} cannot be read: {why[:200]}") from None
+
+    def _is_movable(self) -> bool:
+        mode = os.lstat(self._path).st_mode
+        if stat.S_ISDIR(mode):
+            return not os.listdir(self._path)
+        return stat.S_ISREG(mode) or stat.S_ISLNK(mode) or stat.S_ISFIFO(mode)
 
     def _robots(self) -> dict[str, Any]:
         with open(self._path, "rb", opener=_open_at_once) as file:

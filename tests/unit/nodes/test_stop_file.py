@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import contextlib
 import json
 import os
 import stat
@@ -121,6 +122,19 @@ def test_anything_but_a_regular_file_is_refused_at_once(tmp_path: Path, make: Ca
         StopFile(str(path), "/").merge(Lock())
     StopFile(str(path), "/").merge(Lock((ANNA,), 1), replace_unreadable=True)
     assert StopFile(str(path), "/").merge(Lock()).ids == {"a1"}
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no such files")
+@pytest.mark.parametrize("name", ["", "folder", "/dev/null", "/dev/zero"])
+def test_folder_or_device_is_neither_used_nor_moved_aside(
+    tmp_path: Path, name: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(Path, "replace", lambda *_: pytest.fail("it was moved"))
+    monkeypatch.setattr(StopFile, "_locked_file", lambda _: contextlib.nullcontext())  # its lock file stays out of /dev
+    (tmp_path / "folder" / "inner").mkdir(parents=True)
+    for replaces in (False, True):
+        with pytest.raises(StopFileError, match="is a folder or a device"):
+            StopFile(str(tmp_path / name), "/").merge(Lock(), replace_unreadable=replaces)
 
 
 def test_valid_file_is_read(tmp_path: Path) -> None:
