@@ -106,6 +106,7 @@ class ActiveIoHandler(IoHandler):
 
     def assertWaitFor(self, expected_output: object, *args: object, timeout: float = 10, **kwargs: object) -> None:
         """Assert that `waitFor` succeeds."""
+        place = f"{kwargs.get('stream', 'stderr')} within {timeout} s"
         assert self.waitFor(expected_output, *args, timeout=timeout, **kwargs), (
-            f"Waiting for output timed out: {expected_output!r} was not found within {timeout} s"
+            f"Waiting for output timed out: {expected_output!r} was not found in {place}"
         )

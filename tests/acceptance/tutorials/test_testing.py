@@ -6,6 +6,7 @@ import unittest
 from pathlib import Path
 
 import pytest
+from helpers.processes.command_line import run_cli
 from launch_testing.launch_test import load
 from launch_testing.test_run import test_runs as runs_of
 
@@ -80,3 +81,50 @@ def test_launch_test_of_nodes_passes(tmp_path: Path) -> None:
     for each in runs_of(load(path)):
         each.run({}, result)
     assert (result.failures, result.errors, result.testsRun) == ([], [], 8)
+
+
+HEARD = """
+import unittest
+
+import launch_testing.actions
+import pytest
+import rclpy
+from launch import LaunchDescription
+from launch.actions import ExecuteProcess
+from rclpy.wait_for_message import wait_for_message
+from std_msgs.msg import String
+
+
+@pytest.mark.launch_test
+def generate_test_description():
+    talker = ExecuteProcess(cmd=["python3", "talker.py"])
+    return LaunchDescription([talker, launch_testing.actions.ReadyToTest()])
+
+
+class TestTalker(unittest.TestCase):
+    def test_the_test_hears_it(self):
+        rclpy.init()
+        self.addCleanup(rclpy.shutdown)
+        found, _ = wait_for_message(String, rclpy.create_node("test"), "chatter", time_to_wait=20)
+        self.assertTrue(found)
+"""
+
+TALKER = """
+import rclpy
+from std_msgs.msg import String
+
+rclpy.init()
+node = rclpy.create_node("talker")
+publisher = node.create_publisher(String, "chatter", 1)
+node.create_timer(0.1, lambda: publisher.publish(String(data="hello")))
+rclpy.spin(node)
+"""
+
+
+@pytest.mark.parametrize("verb", ["launch_test", pytest.param("test", marks=pytest.mark.slow)])
+def test_programs_that_a_launch_test_starts_are_in_the_domain_of_its_tests(verb: str, tmp_path: Path) -> None:
+    path = tmp_path / "test_heard.py"
+    path.write_text(HEARD)
+    (tmp_path / "talker.py").write_text(TALKER)
+    result = run_cli(verb, str(path), cwd=tmp_path)
+    assert result.returncode == 0, result.stdout + result.stderr

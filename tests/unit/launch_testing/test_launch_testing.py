@@ -112,7 +112,7 @@ def test_tests_run_beside_the_launch_and_after_shutdown(tmp_path: Path, text: st
 def test_failure_is_reported_with_its_message(tmp_path: Path) -> None:
     result = run(write(tmp_path, BAD))
     assert len(result.failures) == 1
-    assert "'good bye' was not found within 0.1 s" in result.failures[0][1]
+    assert "'good bye' was not found in stdout within 0.1 s" in result.failures[0][1]
 
 
 def test_launch_arguments_reach_the_description(tmp_path: Path) -> None:

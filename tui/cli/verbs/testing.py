@@ -8,6 +8,8 @@ import sys
 from bot_console.runtime.children.child_environment import child_environment
 from bot_console.runtime.importer import install
 from bot_console.runtime.shim_folder import shim_folder
+from bot_console.tui.cli.machine_limits import no_node_here
+from bot_console.tui.session.embedded.domain import take_part
 
 PLUGINS = ("-p", "launch_testing.pytest.plugin", "-p", "launch_pytest.plugin")
 NO_PYTEST = "bot-console test runs pytest, which is not installed: pip install 'bot-console[test]'"
@@ -16,6 +18,8 @@ NO_PYTEST = "bot-console test runs pytest, which is not installed: pip install '
 def launch_test(words: list[str]) -> int:
     """Run the tests of a launch description, without pytest."""
     install()
+    if not _join():
+        return 1
     from launch_testing.launch_test import main
 
     return main(words)
@@ -24,6 +28,8 @@ def launch_test(words: list[str]) -> int:
 def test(words: list[str]) -> int:
     """Run pytest on the given arguments, with `rclpy`, `launch` and all messages importable."""
     install()
+    if not _join():
+        return 1
     os.environ.update(child_environment(os.environ))
     sys.path.append(str(shim_folder()))  # where `-p bot_console_pytest` is found
     try:
@@ -32,3 +38,11 @@ def test(words: list[str]) -> int:
         print(NO_PYTEST, file=sys.stderr)
         return 1
     return int(pytest.main([*PLUGINS, *words]))
+
+
+def _join() -> bool:
+    """Join the domain of the shell, where the tests and the processes under test find each other."""
+    problem = no_node_here() or take_part()
+    if problem:
+        print(problem, file=sys.stderr)
+    return not problem
