@@ -1,4 +1,4 @@
-"""`colcon build`: there is nothing to build here; reports unknown and broken packages."""
+"""`colcon build`: there is nothing to build here; reports unknown and broken packages. Other verbs are refused."""
 
 from __future__ import annotations
 
@@ -15,6 +15,10 @@ from bot_console.tui.text.sanitize import counted, sanitize
 
 NOTHING_TO_DO = "Nothing has to be built or sourced: packages of the workspace are read from their sources."
 GOOD_FOR = "makes the ros2 command and these packages available in any folder of a shell that sources it."
+ONLY_BUILD = (
+    "bot-console answers colcon build alone: bot-console test FOLDER runs the tests of a package, "
+    "and ros2 pkg list lists the packages."
+)
 SELECTING = ("--packages-select", "--packages-up-to")
 
 
@@ -44,6 +48,8 @@ def _report_setup_files() -> None:
 
 def answers(words: Sequence[str]) -> list[str]:
     """The lines of the answer: a warning for each unknown package, the faults of packages, and the summary."""
+    if words and words[0] != "build" and not words[0].startswith("-"):
+        return [ONLY_BUILD]  # else `colcon test` would seem to have passed
     warnings = [f"ignoring unknown package '{name}' in {option}" for option, name in _unknown(words)]
     broken = _broken(words)
     failed = [f"Failed   <<< {name}: {problem}" for name, problem in broken.items()]

@@ -75,7 +75,8 @@ def test_scripts_and_other_programs_find_ros2(name: str, shell: Shell):
 
 @pytest.mark.parametrize("name", slow_after(1, SHELLS))
 def test_course_commands_and_distribution_are_available(name: str, shell: Shell):
-    names = ["rqt", "rqt_console", "rqt_graph", "rqt_plot", "rqt_reconfigure", "rqt_robot_steering", "ros2", "colcon"]
+    names = ["rqt", "rqt_console", "rqt_graph", "rqt_plot", "rqt_reconfigure", "rqt_robot_steering"]
+    names += ["ros2", "colcon", "launch_test"]
     found = shell(name, "\n".join(f"command -v {each}" for each in names) + "\necho $ROS_DISTRO")
     assert [os.path.basename(line) for line in found.split()] == [*names, "jazzy"]
 

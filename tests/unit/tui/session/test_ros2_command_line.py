@@ -11,6 +11,7 @@ import pytest
 from bot_console.runtime.workspace import discover
 from bot_console.tui.cli.launch_lines import parse_launch_line
 from bot_console.tui.cli.verbs.colcon import answers
+from bot_console.tui.cli.verbs.colcon import run as colcon
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import done
 from bot_console.tui.learn import command_log
@@ -49,6 +50,12 @@ def test_colcon_names_packages_that_cannot_be_used(tmp_path, monkeypatch):
     assert answers(["build"])[-1] == "1 package failed: bad"
     assert answers(["build"])[0].startswith(f"Failed   <<< bad: {tmp_path / 'bad' / 'setup.py'}:1")
     assert answers(["build", "--packages-select", "good"])[0].startswith("Nothing has to be built")
+
+
+@pytest.mark.parametrize("verb", ["test", "test-result"])
+def test_colcon_does_not_seem_to_run_tests(verb: str, capsys: pytest.CaptureFixture[str]):
+    assert colcon([verb, "--packages-select", "mine"]) == 1
+    assert "bot-console test FOLDER" in capsys.readouterr().out
 
 
 def test_unmatched_quotation_mark_is_reported():
