@@ -9,8 +9,10 @@ import signal
 import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
+from pathlib import Path
 
 from bot_console.runtime.programs.exit_messages import Interrupted, ended_code, place_fault
+from bot_console.runtime.rosidl.texts import use_prefixes
 from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
 
@@ -52,8 +54,13 @@ def _columns() -> int:
     return found or 80
 
 
-def main(argv: Sequence[str] | None = None) -> int:
-    """Run a command line, given without the word `ros2`, and return its exit code. Prints to this process's streams."""
+def main(argv: Sequence[str] | None = None, prefixes: Sequence[Path] = ()) -> int:
+    """Run a command line, given without the word `ros2`, and return its exit code. Prints to this process's streams.
+
+    With an `rclpy` that is not ours, `prefixes` are those of its packages.
+    """
+    if prefixes:
+        use_prefixes(prefixes)
     words = list(sys.argv[1:] if argv is None else argv)
     try:
         return _finish(_run(words))

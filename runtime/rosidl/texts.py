@@ -2,27 +2,39 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES, added_folders
 
 PREFIX = Path(__file__).resolve().parent / "generated" / "ament-prefix"
-"""The ament prefix of the standard packages; their definitions are below `share`."""
+"""The ament prefix of the included packages; their definitions are below `share`."""
+_prefixes: list[Path] = [PREFIX]
+
+
+def use_prefixes(prefixes: Iterable[Path]) -> None:
+    """Take the standard packages from these prefixes: with another `rclpy`, the included ones say nothing about it."""
+    _prefixes[:] = prefixes
 
 
 def package_folder(package: str) -> Path | None:
     """Return the folder that contains a package's `msg`, `srv` and `action`; None for an unknown package."""
-    folder = PREFIX / "share" / package
-    if folder.is_dir() and not (package in EXAMPLES and package in added_folders()):
-        return folder
+    if not (package in EXAMPLES and package in added_folders()):
+        for prefix in _prefixes:
+            if _has_interfaces(prefix / "share" / package):
+                return prefix / "share" / package
     return added_folders().get(package)
 
 
 def standard_packages() -> Sequence[str]:
-    """Return the names of the included packages."""
-    return sorted(each.name for each in (PREFIX / "share").iterdir())
+    """Return the sorted names of the standard packages."""
+    folders = (each for prefix in _prefixes for each in (prefix / "share").glob("*"))
+    return sorted({each.name for each in folders if _has_interfaces(each)})
+
+
+def _has_interfaces(folder: Path) -> bool:
+    return any((folder / kind).is_dir() for kind in KINDS)
 
 
 def known_packages() -> Sequence[str]:

@@ -9,6 +9,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.bags.writer import BagWriter
+from bot_console.tui.session.machine.launchers import launcher_of_machine
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine, printed_by
 from domains import unused_domain
 from rclpy.serialization import serialize_message
@@ -110,6 +111,9 @@ def test_bag_is_played_into_the_ros2_of_this_machine(peer: None, tmp_path: Path)
         ("param set /other/peer speed 1.5", "Set parameter successful\n"),
         ("param dump /other/peer", "/other/peer:\n  ros__parameters:\n    speed: 1.5\n"),
         ("interface show std_msgs/msg/Float64", "float64 data"),
+        ("interface package test_msgs", "test_msgs/action/Fibonacci\n"),
+        ("interface show tf2_msgs/msg/TFMessage", "Unknown package 'tf2_msgs'"),
+        ("interface show std_msgs/msg/Nope", "Could not find the interface '"),
         ("lifecycle get /other/peer", "Node not found"),
     ],
 )
@@ -134,3 +138,15 @@ def test_continuous_lines_print_until_they_are_stopped(peer: None) -> None:
 def test_command_that_needs_an_installed_ros2_reports_it(peer: None) -> None:
     assert "node" in MachineCommandLine().commands() and "pkg" not in MachineCommandLine().commands()
     assert "there is no command 'ros2'" in printed_by("pkg list") and "topic" in printed_by("pkg list")
+
+
+def test_launch_file_with_an_unknown_package_names_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setenv("ROS_LOG_DIR", str(tmp_path))
+    file = tmp_path / "arm.launch.xml"
+    file.write_text('<launch><node pkg="arm_driver" exec="arm"/></launch>')
+    launcher = launcher_of_machine(lambda *line: None, lambda *line: None)
+    try:
+        answer = launcher.launch(str(file), {}).result(TIMEOUT_S)
+    finally:
+        launcher.close()
+    assert not answer.ok and "package 'arm_driver' not found" in answer.text

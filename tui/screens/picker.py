@@ -77,7 +77,7 @@ class PickerScreen(QuestionScreen[str]):
 
     def _show(self, typed: str) -> None:
         found, shown = self._choice.find(typed), self._list
-        self.query_one(Box).border_subtitle = f"{len(found)} of {self._every} · Enter OK · Esc Cancel"
+        self.query_one(Box).border_subtitle = f"{len(found)} of {max(self._every, len(found))} · Enter OK · Esc Cancel"
         shown.cursor = 0
         shown.exchange(found, stay=False)
         self._explain("" if found else self._choice.empty, wrong=False)

@@ -338,6 +338,19 @@ def test_choices_are_listed_with_the_value_marked() -> None:
     run(live(), play)
 
 
+def test_typed_path_counts_as_one_of_the_choices(tmp_path: Path) -> None:
+    (tmp_path / "mine.launch.py").touch()
+
+    async def play(session: Session) -> None:
+        session.launcher.known = ()
+        await session.press("8", "o")
+        assert "0 of 0" in session.text()
+        await session.paste(str(tmp_path / "mine.launch.py"))
+        assert "1 of 1" in session.text()
+
+    run(empty(), play, (120, 40))
+
+
 def test_empty_pane_explains_what_to_do_and_new_process_appears() -> None:
     async def play(session: Session) -> None:
         await session.press("8", "x", "s", "enter", "left", "right")

@@ -55,3 +55,17 @@ def test_other_packages_can_be_added(tmp_path: Path, monkeypatch: pytest.MonkeyP
     assert "my_msgs" in texts.known_packages()
     assert texts.interface_names("my_msgs") == ["srv/Ask"]
     assert texts.definition_text("my_msgs", "srv", "Ask") == "---\n"
+
+
+def test_definitions_of_a_machine_replace_the_included_ones(tmp_path: Path) -> None:
+    (tmp_path / "share" / "arm_msgs" / "msg").mkdir(parents=True)
+    (tmp_path / "share" / "arm_msgs" / "msg" / "Joint.msg").write_text("float64 angle\n")
+    (tmp_path / "share" / "rcl").mkdir()
+    texts.use_prefixes([tmp_path / "nowhere", tmp_path])
+    try:
+        assert texts.standard_packages() == ["arm_msgs"] and texts.package_folder("rcl") is None
+        assert texts.interface_names("arm_msgs") == ["msg/Joint"] and texts.interface_names("tf2_msgs") == []
+        assert texts.definition_text("arm_msgs", "msg", "Joint") == "float64 angle\n"
+    finally:
+        texts.use_prefixes([texts.PREFIX])
+    assert "tf2_msgs" in texts.standard_packages()

@@ -7,6 +7,7 @@ import os
 import sys
 from collections.abc import Iterable, Sequence
 from importlib.machinery import ModuleSpec, PathFinder
+from pathlib import Path
 from types import ModuleType
 
 from bot_console.tui.session.machine.machine_ros import RUNTIME
@@ -35,6 +36,15 @@ def provide_missing() -> None:
     """Make the bundled packages importable where they are not installed; the machine's own take precedence."""
     if not any(isinstance(each, BundledPackageFinder) for each in sys.meta_path):
         sys.meta_path.append(BundledPackageFinder())
+
+
+def provide_prefixes() -> Sequence[Path]:
+    """The prefixes of the machine's packages, also for `ament_index_python`: wheels are in that of their environment,
+    which only a sourced ROS 2 would name.
+    """
+    if not os.environ.get("AMENT_PREFIX_PATH"):
+        os.environ["AMENT_PREFIX_PATH"] = sys.prefix
+    return [Path(each) for each in os.environ["AMENT_PREFIX_PATH"].split(os.pathsep) if each]
 
 
 def missing_messages(path: Iterable[str] | None = None) -> str:

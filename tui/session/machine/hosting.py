@@ -11,7 +11,7 @@ from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.session.embedded.vitals import SystemVitals
 from bot_console.tui.session.launch_host.host import LaunchHost, Printed
-from bot_console.tui.session.machine.console_needs import provide_missing
+from bot_console.tui.session.machine.console_needs import provide_missing, provide_prefixes
 from bot_console.tui.session.machine.launch_files import launch_files
 from bot_console.tui.settings.settings import read_settings
 
@@ -56,6 +56,7 @@ class MainThread:
 def host_launches(owner: socket.socket) -> None:
     """Serve until everything has ended at a console's request, or because the owner has gone."""
     provide_missing()
+    provide_prefixes()
     main_thread = MainThread()
 
     def make(record: Add, printed: Printed) -> RosLauncher:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import sys
 
-from bot_console.tui.session.machine.console_needs import provide_missing
+from bot_console.tui.session.machine.console_needs import provide_missing, provide_prefixes
 
 
 def main() -> int:
@@ -12,7 +12,7 @@ def main() -> int:
     provide_missing()
     from ros2cli.command_line import main as run
 
-    return run(sys.argv[1:])
+    return run(sys.argv[1:], provide_prefixes())
 
 
 if __name__ == "__main__":

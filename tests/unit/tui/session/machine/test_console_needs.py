@@ -1,5 +1,6 @@
 """A machine whose ROS 2 is little more than `rclpy`: which packages are provided, and which are reported as missing."""
 
+import os
 import sys
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from bot_console.tui.session.machine.console_needs import (
     BundledPackageFinder,
     missing_messages,
     provide_missing,
+    provide_prefixes,
 )
 
 
@@ -40,3 +42,14 @@ def test_missing_message_packages_are_named_with_install_hint(tmp_path: Path, mo
     message = missing_messages([str(tmp_path)])
     assert "lacks diagnostic_msgs, nav_msgs," in message
     assert "ros-jazzy-diagnostic-msgs ros-jazzy-nav-msgs" in message
+
+
+@pytest.mark.parametrize(
+    ("sourced", "prefixes"), [("", [sys.prefix]), ("/ws/install:/opt/ros", ["/ws/install", "/opt/ros"])]
+)
+def test_packages_are_in_the_sourced_prefixes_or_else_in_that_of_the_wheels(
+    monkeypatch: pytest.MonkeyPatch, sourced: str, prefixes: list[str]
+) -> None:
+    monkeypatch.setenv("AMENT_PREFIX_PATH", sourced)
+    assert provide_prefixes() == [Path(each) for each in prefixes]
+    assert os.environ["AMENT_PREFIX_PATH"].split(os.pathsep) == prefixes
