@@ -133,7 +133,7 @@ def _state_line(state: Steering, drive: DriveInfo, width: int) -> Line:
         return _line_without_keys(drive, topic)
     if drive.stopped and not drive.lockable and is_stopped_after_steering(drive):
         key = stop_key_text(drive, "ends them")
-        return ((" STOPPED ", "warn"), (f" by zero Twists (no emergency stop): Enter resumes steering, {key}", ""))
+        return ((" STOPPED ", "warn"), (f" by zeros (no emergency stop): Enter resumes steering, {key}", ""))
     if drive.stopped and not drive.stop_confirmed:
         return ((" STOP NOT CONFIRMED " if is_of_others(drive) else " STOP SENT, NOT CONFIRMED ", "error"),
                 (_unconfirmed(drive), ""))  # fmt: skip

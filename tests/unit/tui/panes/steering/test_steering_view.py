@@ -7,7 +7,7 @@ from dataclasses import replace
 import pytest
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.panes.steering.plane import ASKED, BOTH, ROBOT, plane, velocity_at
-from bot_console.tui.panes.steering.state import Steering
+from bot_console.tui.panes.steering.state import OWN_REASONS, Steering
 from bot_console.tui.panes.steering.view import lines
 from samples import driving
 
@@ -59,6 +59,14 @@ def test_plane_and_bars_fit_80_by_24_with_every_reason() -> None:
 def test_unconfirmed_stop_of_a_robot_without_a_lock_fits_80_columns() -> None:
     line = texts(Steering(), replace(driving(), stopped=True, stop_confirmed=False, lockable=False))[0]
     assert "THE ROBOT MAY MOVE" in line and "no emergency stop" in line
+    assert len(line) <= INNER[0]
+
+
+@pytest.mark.parametrize("reason", OWN_REASONS)
+def test_stop_by_steering_fits_80_columns_with_the_keys_that_end_it(reason: str) -> None:
+    held = replace(driving(), stopped=True, stopped_here=True, own_stops=frozenset({"mine"}), stop_reason=reason)
+    line = texts(Steering(), replace(held, lockable=False))[0]
+    assert "no emergency stop" in line and "Enter resumes" in line and line.rstrip().endswith("! ends them")
     assert len(line) <= INNER[0]
 
 
