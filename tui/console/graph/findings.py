@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.text.natural import natural_key
 
 SHARED = ("/rosout", "/parameter_events", "/tf", "/tf_static", "/diagnostics", "/clock", "/statistics")
 """Topics that may have many publishers, or none, in a healthy graph."""
@@ -37,7 +38,7 @@ def findings(info: GraphInfo) -> tuple[GraphFinding, ...]:
     debugged = (GraphFinding(node, f"{node} is {debugger_text(line)}") for node, line in info.debugged)
     found = [*_duplicate_names(nodes), *_topics(visible), *_services(nodes), *_isolated_nodes(nodes)]
     found += [*otherwise, *frozen, *silent, *debugged]
-    return tuple(sorted(found, key=lambda each: (not each.fault, each.subject)))
+    return tuple(sorted(found, key=lambda each: (not each.fault, natural_key(each.subject))))
 
 
 def debugger_text(line: str) -> str:

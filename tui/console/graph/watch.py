@@ -13,6 +13,7 @@ from bot_console.tui.console.graph.observer import Observer
 from bot_console.tui.console.graph.pairs import UnheardPairs
 from bot_console.tui.console.graph.unresponsive_nodes import UnresponsiveNodes
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
+from bot_console.tui.text.natural import NaturalKey, natural_key
 from rclpy.node import Node
 
 ACTION_SERVER_TOPIC = "/_action/status"
@@ -266,8 +267,8 @@ def qos_text(profile: Any) -> str:
     return " ".join([*(word.lower().replace("_", " ") for word in words), depth]).strip()
 
 
-def _name(named: NodeInfo | Endpoint) -> str:
-    return named.name
+def _name(named: NodeInfo | Endpoint) -> NaturalKey:
+    return natural_key(named.name)
 
 
 def _do_nothing() -> None:

@@ -82,11 +82,12 @@ MAX_OPEN_NODES = 14
 
 
 def initial_folds(nodes: Iterable[str]) -> frozenset[str]:
-    """The rows that are folded before the user has folded or unfolded anything."""
+    """The rows that are folded before the user has folded or unfolded anything; a namespace of all nodes is not."""
     names = tuple(nodes)
     if len(names) <= MAX_OPEN_NODES:
         return frozenset()
-    return frozenset((*names, *(f"{space}/" for spaces in _spaces(names).values() for space in spaces)))
+    spaces = [{f"{each}/" for each in found} for found in _spaces(names).values()]
+    return frozenset(names).union(*spaces) - frozenset.intersection(*map(frozenset, spaces))
 
 
 class TreeRows:

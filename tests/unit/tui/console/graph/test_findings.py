@@ -33,6 +33,15 @@ def test_a_topic_without_publisher_is_a_fault_but_one_without_subscription_is_no
     assert message(NodeInfo("/nav", (Endpoint("/plan", TWIST, RELIABLE),))) == []
 
 
+def test_findings_are_in_the_natural_order_of_their_subjects() -> None:
+    listens = [NodeInfo("/nav", (), (Endpoint(f"/robot{number}/goal", TWIST),)) for number in (1, 10, 2)]
+    assert [each.partition(",")[0].rpartition(" ")[2] for each in message(*listens)] == [
+        "/robot1/goal",
+        "/robot2/goal",
+        "/robot10/goal",
+    ]
+
+
 def test_two_publishers_are_a_hint_except_on_shared_topics() -> None:
     both = tuple(
         NodeInfo(name, tuple(Endpoint(t, TWIST, RELIABLE) for t in ("/cmd_vel", "/tf"))) for name in ("/a", "/b")

@@ -62,6 +62,16 @@ def test_graph_is_polled_at_every_tick_without_events(node):
     assert len(polls) == 3
 
 
+def test_nodes_and_topics_are_in_natural_order(context, node):
+    for name in ("robot10", "robot9"):
+        rclpy.create_node(name, context=context).create_publisher(Float64, f"{name}/moves", 1)
+    watch = GraphWatch(node, lambda graph: None)
+    watch.poll()
+    robots = [each.name for each in watch.info.nodes if each.name.startswith("/robot")]
+    assert robots == ["/robot9", "/robot10"]
+    assert [each.name for each in watch.info.topics if "moves" in each.name] == ["/robot9/moves", "/robot10/moves"]
+
+
 def test_polling_pauses_after_a_long_poll(node, monkeypatch):
     now, spent, polls = [0.0], [0.0], []
     monkeypatch.setattr("bot_console.tui.console.graph.watch.monotonic", lambda: now[0])

@@ -196,6 +196,13 @@ def test_large_tree_starts_folded_with_its_namespaces_and_a_small_one_open() -> 
     assert [row.title for row in rows(trees, View(folded=folded))] == [f"/robot{robot}/" for robot in range(5)]
 
 
+def test_namespace_that_contains_all_nodes_starts_open() -> None:
+    fleet = [f"/yard/robot{robot}/{name}" for robot in range(8) for name in ("base", "lidar")]
+    trees = {node: ParameterTree(node, ()) for node in fleet}
+    open_at_start = [row.title for row in rows(trees, View(folded=initial_folds(fleet)))]
+    assert open_at_start == ["/yard/", *(f"robot{robot}/" for robot in range(8))]
+
+
 def test_short_list_names_the_node_where_several_have_a_parameter_of_that_name() -> None:
     found = trees(tree("/robot1/base", "max_speed"), tree("/robot2/base", "max_speed", "safety_distance"))
     assert row_texts(found, View(essential=True)) == [
