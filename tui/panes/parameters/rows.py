@@ -87,7 +87,7 @@ def initial_folds(nodes: Iterable[str]) -> frozenset[str]:
     if len(names) <= MAX_OPEN_NODES:
         return frozenset()
     spaces = [{f"{each}/" for each in found} for found in _spaces(names).values()]
-    return frozenset(names).union(*spaces) - frozenset.intersection(*map(frozenset, spaces))
+    return frozenset(names).union(*spaces) - spaces[0].intersection(*spaces[1:])
 
 
 class TreeRows:
