@@ -162,7 +162,7 @@ class OpenedBag:
             logs=contents.logs.state,
             journal=JournalState(0, len(contents.changes)),
             world=contents.world,
-            link=LinkInfo(f"recording {name}, {(about.end - about.begin) / 1e9:.0f} s"),
+            link=LinkInfo(f"bag {name}, {(about.end - about.begin) / 1e9:.0f} s"),
             capabilities=Capabilities(launch=WHY, live=WHY, change=WHY),
         )
 

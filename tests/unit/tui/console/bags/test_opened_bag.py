@@ -89,7 +89,7 @@ def test_log_parameter_changes_and_world_come_from_the_bag(console: OpenedBag) -
     assert change.stamp == (BEGIN + 4) * SECOND and now.journal.end == 1 and not now.journal.undoes
     assert now.world.map is not None and now.world.map.width == 2 and len(now.world.trail) == 10
     assert console.drive.pose_at((BEGIN + 3) * SECOND + 1) == Pose(3.0, 0.0, 0.0)
-    assert "10 s" in now.link.to and console.snapshot() is now
+    assert now.link.to == "bag bag, 10 s" and console.snapshot() is now
 
 
 def test_values_are_plotted_over_the_time_of_the_bag(console: OpenedBag) -> None:
