@@ -31,6 +31,8 @@ MIN_CELLS_FOR_NODES = 12
 """Minimum cells left in a row that names the nodes of a process."""
 MIN_CELLS_FOR_TRACE = 84
 """Minimum cells of a row that shows the CPU usage over time."""
+MIN_CELLS_FOR_PID = 84
+"""Minimum cells of a row with the process id, which the details show too."""
 STATE_CELLS, PID_CELLS, RESTARTS_CELLS = 12, 8, 5
 """Cells of the state, and of the process id and the number of restarts if any process has one."""
 
@@ -184,7 +186,7 @@ class ProcessRows(ItemList[Row]):
 
     def _process(self, process: ProcessInfo, indent: str, width: int) -> list[Segment]:
         glyph, style = STATES[process.state]
-        head, (pids, restarts) = f"{indent}{glyph}", self._optional_cells()
+        head, (pids, restarts) = f"{indent}{glyph}", self._optional_cells(width)
         names = self._names(width - STATE_CELLS - pids)
         name = cut(f"{head} {sanitize(process.label)}", names, pad=True)
         columns = [f"  {process.state.value:<10}", f"{process.pid or '':>{pids}}" if pids else ""]
@@ -248,11 +250,11 @@ class ProcessRows(ItemList[Row]):
         fitting = [each <= room for each in accumulate(widths)]
         return [each.ljust(cells) for each, cells, fits in zip(columns, widths, fitting, strict=False) if fits]
 
-    def _optional_cells(self) -> tuple[int, int]:
+    def _optional_cells(self, width: int) -> tuple[int, int]:
         """Cells of the process ids and of the numbers of restarts; 0 if no process has one."""
         every = [each.process for each in self.rows if each.process is not None]
         return (
-            PID_CELLS if any(each.pid for each in every) else 0,
+            PID_CELLS if width >= MIN_CELLS_FOR_PID and any(each.pid for each in every) else 0,
             RESTARTS_CELLS if any(_restarts(each) for each in every) else 0,
         )
 
