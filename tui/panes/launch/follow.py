@@ -46,6 +46,7 @@ class Follower:
 
     def __init__(self) -> None:
         self._known: dict[str, ProcessActivity] = {}
+        self._info: dict[str, ProcessInfo] = {}
         self._by_logger: dict[str, str] = {}
         """The key of the process that logs or prints under each name."""
         self._processes: object = None
@@ -62,6 +63,7 @@ class Follower:
             return
         self._processes = processes
         self._known = {each.key: self._known.get(each.key) or ProcessActivity() for each in processes}
+        self._info = {each.key: each for each in processes}
         names = {logger_of(node): each.key for each in processes for node in each.nodes}
         self._by_logger = {**{each.label: each.key for each in processes}, **names}
 
@@ -86,22 +88,28 @@ class Follower:
             each = record(number)
             key = self.key_of(each.node) if each is not None else ""
             if each is not None and key:
-                self._add(self._known[key], each)
+                self._add(self._known[key], each, is_expected=_is_due_to_requested_end(self._info[key], each))
                 found = True
         return found
 
-    def _add(self, followed: ProcessActivity, record: LogRecord) -> None:
+    def _add(self, followed: ProcessActivity, record: LogRecord, *, is_expected: bool) -> None:
         last = followed.lines.pop() if followed.lines else None
         if last is not None and _same(last.record, record):
             followed.lines.append(OutputLine(record, last.count + 1))
         else:
             followed.lines.extend(each for each in (last, OutputLine(record)) if each is not None)
-        followed.errors += record.severity >= Severity.ERROR
+        followed.errors += record.severity >= Severity.ERROR and not is_expected
         followed.warnings += record.severity == Severity.WARN
 
     def key_of(self, logger: str) -> str:
         """The process that logs or prints under a name or a parent logger of it; empty if none is known."""
         return _longest(logger, self._by_logger)
+
+
+def _is_due_to_requested_end(process: ProcessInfo, record: LogRecord) -> bool:
+    """Whether a process logged or printed it after its end had been requested; the log counts no such errors either."""
+    requested = process.end_requested
+    return 0 < requested <= record.stamp and not requested < process.started <= record.stamp
 
 
 def _same(one: LogRecord, other: LogRecord) -> bool:

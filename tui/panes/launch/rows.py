@@ -32,7 +32,7 @@ MIN_CELLS_FOR_NODES = 12
 MIN_CELLS_FOR_TRACE = 84
 """Minimum cells of a row that shows the CPU usage over time."""
 MIN_CELLS_FOR_PID = 84
-"""Minimum cells of a row with the process id, which the details show too."""
+"""Minimum cells of a row with the process id, and with the exit code of an earlier run; the details show both."""
 STATE_CELLS, PID_CELLS, RESTARTS_CELLS = 12, 8, 5
 """Cells of the state, and of the process id and the number of restarts if any process has one."""
 
@@ -197,7 +197,8 @@ class ProcessRows(ItemList[Row]):
         fixed = names + STATE_CELLS + pids + restarts + count_cells
         room = width - fixed - states
         usage = "".join((self._states(process).ljust(states), *self._usage(process, trace, width, room)))
-        exit_code = "" if process.exit_code is None else f"  exit {process.exit_code}"
+        is_past = process.state is ProcessState.RUNNING and width < MIN_CELLS_FOR_PID
+        exit_code = "" if process.exit_code is None or is_past else f"  exit {process.exit_code}"
         problem = f"  {sanitize(process.problem)}" if process.problem and (not exit_code or width >= 60) else ""
         end = exit_code.ljust(len(usage)) if not usage.strip() else exit_code + usage
         used = fixed + cell_len(end)

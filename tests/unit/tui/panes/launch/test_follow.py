@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, ProcessState, Severity
 from bot_console.tui.panes.launch.follow import CPU_SAMPLE_S, CPU_SAMPLES, MAX_LINES, MAX_RECORDS, Follower
 from bot_console.tui.text.bars import strip
@@ -41,6 +43,18 @@ def test_lines_belong_to_the_process_of_their_logger_or_output() -> None:
     assert (zoo.warnings, zoo.errors, len(zoo.lines)) == (1, 2, 3)
     assert (ear.warnings, ear.errors, len(ear.lines)) == (0, 0, 0)
     assert found.key_of("arm.right") == "2" and found.key_of("army") == "" == found.key_of("rviz")
+
+
+def test_errors_after_a_requested_end_are_not_counted_until_the_process_runs_again() -> None:
+    follower = Follower()
+    follower.update_processes((replace(ZOO, started=10, end_requested=20), EAR))
+    stamped = [(15, "crash"), (20, "KeyboardInterrupt"), (21, "process has died"), (35, "again")]
+    records = [LogRecord(at, stamp, Severity.ERROR, "zoo.py-1", text) for at, (stamp, text) in enumerate(stamped)]
+    follower.read(LogState(0, 3), records.__getitem__)
+    assert (follower.of("1").errors, len(follower.of("1").lines)) == (1, 3)
+    follower.update_processes((replace(ZOO, started=30, end_requested=20), EAR))
+    follower.read(LogState(0, 4), records.__getitem__)
+    assert follower.of("1").errors == 2
 
 
 def test_flood_is_read_in_pieces_and_only_the_newest_lines_are_kept() -> None:
