@@ -9,6 +9,7 @@ import sys
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.process import current
+from bot_console.runtime.process.stack_frames import line_outside
 from bot_console.runtime.rmw.bus import PublisherEndpoint
 from bot_console.runtime.rmw.qos_matching import LATCHING
 from bot_console.runtime.rosidl.conversion import FieldTypeError
@@ -119,12 +120,10 @@ class Publisher:
         raise RCLError(f"{what}: publisher's context is invalid")
 
     def _explain(self, error: FieldTypeError) -> None:
-        """Log an ERROR that names field, type and the publishing line."""
-        frame = sys._getframe(2)
-        while frame.f_back is not None and frame.f_globals.get("__name__", "").startswith("rclpy."):
-            frame = frame.f_back  # skips the `publish` of a lifecycle publisher, which is not user code
-        where = f"{frame.f_code.co_filename}:{frame.f_lineno}"
-        self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}, at {where}")
+        """Log an ERROR that names field, type and the user's line, even if a broadcaster of ours publishes."""
+        place = line_outside(sys._getframe(1))  # pyright: ignore[reportPrivateUsage] -- documented in `sys`
+        where = f", at {place}" if place else ""
+        self._node.get_logger().error(f"cannot publish on '{self._endpoint.endpoint.topic}': {error}{where}")
 
     def get_subscription_count(self) -> int:
         """Return the number of matched subscriptions; raises `RCLError` after a shutdown of the context."""

@@ -71,7 +71,8 @@ class BufferCore:
     def _insert(self, message: TransformStamped, authority: str, *, is_static: bool) -> None:
         stamp = message.header.stamp
         move, turn = message.transform.translation, message.transform.rotation
-        place = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
+        read = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
+        place = tuple(map(float, read))  # not numpy's numbers, which tf_transformations returns
         entry = stamp.sec * S_TO_NS + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
         child = message.child_frame_id.removeprefix("/")
         if child in self._histories:

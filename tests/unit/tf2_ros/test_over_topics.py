@@ -6,6 +6,7 @@ import threading
 from collections.abc import Callable
 from typing import Any
 
+import numpy as np
 import pytest
 from frames import frame, place
 from rclpy.duration import Duration
@@ -52,6 +53,21 @@ def test_buffer_copies_messages() -> None:
     buffer.set_transform(message, "me")
     message.transform.translation.x = 9.0
     assert place(buffer.lookup_transform("map", "base", Time())) == (1.0, 0.0, 0.0)
+
+
+def test_numbers_of_numpy_become_ordinary_ones() -> None:
+    buffer = Buffer()
+    buffer.set_transform_static(frame("base", "laser", x=np.float64(2.0)), "me")
+    assert type(buffer.lookup_transform("laser", "base", Time()).transform.translation.x) is float
+
+
+@pytest.mark.parametrize("kind", [TransformBroadcaster, StaticTransformBroadcaster])
+def test_wrong_field_names_the_line_that_broadcasts(
+    node: Node, kind: type[TransformBroadcaster], capfd: pytest.CaptureFixture[str]
+) -> None:
+    with pytest.raises(TypeError, match=r"translation\.x"):
+        kind(node).sendTransform(frame("map", "base", x=1))
+    assert f", at {__file__}:" in capfd.readouterr().err
 
 
 def test_future_is_done_when_the_transform_arrives(node: Node, serve: Serve) -> None:
