@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import asyncio
 import threading
-from collections.abc import Sequence
-from functools import partial
+from collections.abc import Callable, Sequence
+from contextlib import suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -33,14 +33,13 @@ from launch_ros.utilities import (
     prefix_namespace,
     to_parameters_list,
 )
+from launch_ros.utilities.service_calls import answered_call
 
 if TYPE_CHECKING:
     from launch.condition import Condition
     from launch.frontend.entity import Entity
     from launch.frontend.parser import Parser
     from launch.launch_context import LaunchContext
-
-SERVICE_POLL_S = 1.0
 
 
 @expose_action("load_composable_node")
@@ -109,21 +108,12 @@ class LoadComposableNodes(Action):
             for request in requests:
                 self._load_one(request, client, target, context)
         finally:
-            context.asyncio_loop.call_soon_threadsafe(self._finish)
+            _run_in_loop(context, self._finish)
 
     def _load_one(self, request: Any, client: Any, target: str, context: LaunchContext) -> None:
-        while not client.wait_for_service(timeout_sec=0.0 if context.is_shutdown else SERVICE_POLL_S):
-            if context.is_shutdown:
-                self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service, due to shutdown.")
-                return
-        answered = threading.Event()
-        future = client.call_async(request)
-        future.add_done_callback(partial(_set_answered, answered))
-        while not answered.wait(SERVICE_POLL_S):
-            if context.is_shutdown:
-                self.__logger.warning(f"Abandoning wait for the '{client.srv_name}' service response, due to shutdown.")
-                future.cancel()
-                return
+        future = answered_call(client, request, context, self.__logger)
+        if future is None:
+            return
         if future.exception() is not None:
             self.__logger.error(f"Failed to load node '{request.node_name}': {future.exception()}")
             return
@@ -137,7 +127,7 @@ class LoadComposableNodes(Action):
                 f"{answer.error_message}"
             )
             return
-        context.asyncio_loop.call_soon_threadsafe(_count, name, target, context)
+        _run_in_loop(context, _count, name, target, context)
         self.__logger.info(f"Loaded node '{answer.full_node_name}' in container '{target}'")
 
     def _finish(self) -> None:
@@ -145,8 +135,12 @@ class LoadComposableNodes(Action):
             self.__done.set_result(None)
 
 
-def _set_answered(answered: threading.Event, future: object) -> None:
-    answered.set()
+def _run_in_loop(context: LaunchContext, function: Callable[..., object], *args: object) -> None:
+    """Run a function in the launch's loop, unless the launch has ended meanwhile."""
+    loop = context.asyncio_loop
+    if loop is not None:
+        with suppress(RuntimeError):  # it has just been closed
+            loop.call_soon_threadsafe(function, *args)
 
 
 def _count(name: str, target: str, context: LaunchContext) -> None:

@@ -9,14 +9,13 @@ from typing import TYPE_CHECKING, Any
 import launch.logging
 from launch.event_handler import BaseEventHandler
 from launch_ros.ros_adapters import get_ros_node
+from launch_ros.utilities.service_calls import answered_call
 
 if TYPE_CHECKING:
     from launch.launch_context import LaunchContext
     from lifecycle_msgs.msg import TransitionEvent
     from rclpy.client import Client
     from rclpy.subscription import Subscription
-
-SERVICE_POLL_S = 1.0
 
 
 class LifecycleEventManager:
@@ -59,26 +58,10 @@ class LifecycleEventManager:
         from launch_ros.events.lifecycle import ChangeState
         from lifecycle_msgs.srv import ChangeState as ChangeStateService
 
-        while not self._client.wait_for_service(timeout_sec=SERVICE_POLL_S):
-            if context.is_shutdown:
-                self._logger.warning(f"Abandoning wait for the '{self._client.srv_name}' service, due to shutdown.")
-                return
         request = ChangeStateService.Request()
         request.transition.id = transition_id
-        answered = threading.Event()
-        future = self._client.call_async(request)
-
-        def report(_: Any) -> None:
-            answered.set()
-
-        future.add_done_callback(report)
-        while not answered.wait(SERVICE_POLL_S):
-            if context.is_shutdown:
-                self._logger.warning(
-                    f"Abandoning wait for the '{self._client.srv_name}' service response, due to shutdown."
-                )
-                return
-        if future.exception() is not None or not future.result().success:
+        future = answered_call(self._client, request, context, self._logger)
+        if future is not None and (future.exception() is not None or not future.result().success):
             label = ChangeState.valid_transitions[transition_id]
             self._logger.error(f"Failed to make transition '{label}' for LifecycleNode '{self.node_name}'")
 

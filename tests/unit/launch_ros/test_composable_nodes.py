@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+import threading
 from pathlib import Path
 from typing import Any
 
 import pytest
-from launch.actions import GroupAction
+from helpers.rigs import until
+from launch.actions import EmitEvent, GroupAction, Shutdown, TimerAction
 from launch.conditions import IfCondition
+from launch.events import matches_action
 from launch.substitutions import TextSubstitution
 from launch_ros.actions import (
+    LifecycleNode,
     LoadComposableNodes,
     PushROSNamespace,
     SetParameter,
@@ -18,6 +22,7 @@ from launch_ros.actions import (
 )
 from launch_ros.actions.load_composable_nodes import get_composable_node_load_request
 from launch_ros.descriptions import ComposableNode
+from launch_ros.events.lifecycle import ChangeState
 from launching import Launch
 
 from launch import LaunchContext
@@ -102,6 +107,26 @@ def test_pushed_namespace_does_not_apply_to_the_container(run: Launch, monkeypat
     )
     run([GroupAction([PushROSNamespace("ns"), load])])
     assert asked == ["ns/box/_container/load_node"]
+
+
+def test_shutdown_while_nodes_are_awaited_is_one_warning_for_each(
+    run: Launch, log_lines: list[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    raised: list[object] = []
+    monkeypatch.setattr(threading, "excepthook", lambda each: raised.append(each.exc_value))
+    load = LoadComposableNodes(
+        target_container="nobody",
+        composable_node_descriptions=[ComposableNode(package="p", plugin="p::C")],
+    )
+    node = LifecycleNode(executable="true", name="silent", namespace="")
+    configure = ChangeState(lifecycle_node_matcher=matches_action(node), transition_id=1)
+    run([load, node, EmitEvent(event=configure), TimerAction(period=0.2, actions=[Shutdown()])])
+    waited = [
+        "Abandoning wait for the '/silent/change_state' service, due to shutdown.",
+        "Abandoning wait for the 'nobody/_container/load_node' service, due to shutdown.",
+    ]
+    until(lambda: raised or sorted(each.partition("]: ")[2] for each in log_lines if "Abandoning" in each) == waited)
+    assert not raised
 
 
 def test_container_must_be_text_or_action() -> None:
