@@ -290,6 +290,7 @@ class Clocks:
         Shifted file times would have everything compiled again. With a current glibc, libfaketime's "fix" of monotonic
         deadlines makes timed waits end at once, so that threads that wait for the interpreter would poll.
         """
+        assert FAKETIME.is_file(), f"there is no {FAKETIME}: install libfaketime"
         self._file, before = robot.folder / "clock", dict(robot.environment)
         (robot.folder / "sitecustomize.py").write_text(SLEEP)
         self._set("+0")
