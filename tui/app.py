@@ -98,7 +98,7 @@ class BotConsoleApp(GuardedApp):
         self._keyboard = Keyboard(self, self._handle_event, self.stage.typing)
         self.key_watch = self.early_stop = EarlyStop(
             lambda: self.input_is_handled and self._keyboard.is_idle, self.stage.typing,
-            lambda: self._snapshot.drive.own_stops if self._reached else frozenset(),
+            lambda: self._snapshot.drive.own_stops if self._reached and not self.stage.is_too_small() else frozenset(),
         )  # fmt: skip
         self._reach, self._reached = reach, False
         self.tuner: Tuner | None = None

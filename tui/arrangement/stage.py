@@ -105,6 +105,10 @@ class Stage:
         """Columns and lines of the terminal."""
         return self._extent.width, self._extent.height
 
+    def is_too_small(self) -> bool:
+        """Whether only a notice is shown."""
+        return self._extent.width < MIN_SIZE[0] or self._extent.height < MIN_SIZE[1]
+
     def selected(self) -> str:
         """The id of the focused pane."""
         pane = self.current()
@@ -192,7 +196,7 @@ class Stage:
         """Show the chosen pane or layout, as far as there is room."""
         screen = self._app.screen_stack[0]
         width, height = self._extent
-        small = width < MIN_SIZE[0] or height < MIN_SIZE[1]
+        small = self.is_too_small()
         screen.set_class(small, "small")
         if small:
             screen.query_one("#too-small", Static).update(too_small(width, height))
@@ -269,4 +273,4 @@ def too_small(width: int, height: int) -> str:
     need = f"{MIN_SIZE[0]}x{MIN_SIZE[1]}"
     if width < 40 or height < 6:
         return f"{width}x{height} is too small\n{need} is needed\n! stops the robot\nq quits"
-    return f"{width}x{height} is too small\nthe console needs {need}\n\nthe robot goes on; ! stops it, q quits"
+    return f"{width}x{height} is too small\nthe console needs {need}\n\nif the robot moves, ! stops it; q quits"

@@ -18,12 +18,22 @@ from textual.screen import Screen
 class Stopping:
     """Holds the robot for this console, and withdraws that stop; others' stops are released only after a question."""
 
-    def __init__(self, app: App[None], console: Console, quitting: Quitting, typing: Callable[[], bool]) -> None:
-        """`typing` returns whether a text field has the focus."""
+    def __init__(
+        self,
+        app: App[None],
+        console: Console,
+        quitting: Quitting,
+        typing: Callable[[], bool],
+        is_hidden: Callable[[], bool],
+    ) -> None:
+        """`typing` returns whether a text field has the focus, `is_hidden` whether no stop can be seen, since the
+        terminal is too small.
+        """
         self._app = app
         self._console = console
         self._quitting = quitting
         self._typing = typing
+        self._is_hidden = is_hidden
         self._question: Screen[None] | None = None
         """The question whether to release the stops of others; may have been answered already."""
         self._marked: tuple[ConsoleSnapshot, ConsoleSnapshot] | None = None
@@ -34,9 +44,10 @@ class Stopping:
 
         If the robot is held only while the console asks whether to quit, the key turns that into the person's own stop.
         While the console asks whether to release the stops of others, which has its own keys, it keeps the robot held.
+        In a terminal that is too small to show a stop, it releases nothing.
         """
         drive = self._console.snapshot().drive
-        holds = self._quitting.keep_held() or self._asking
+        holds = self._quitting.keep_held() or self._asking or self._is_hidden()
         is_pending = drive.awaits_robot or (drive.lockable and not drive.stop_confirmed)
         if holds or not drive.stopped_here or is_pending:
             self.hold()
