@@ -12,7 +12,21 @@ from rclpy.node import Node
 from rclpy.task import Future as RosFuture
 
 ANSWER_TIMEOUT_S = 5.0
-"""Seconds to wait for a response: a slow link delivers it late, a hung node never sends it."""
+"""Seconds to wait for a response, beyond what the link to the robot takes: a hung node never sends it."""
+
+LINK_DELAYS = 3
+"""How many round trips of the link a response may take. A request may have to wait behind larger messages, and the
+delay of a link that fills up is longer than the last one measured.
+"""
+
+LinkDelay = Callable[[], float]
+"""Returns the latest round-trip time of the link to the robot, in seconds; 0 if it is unknown, or there is no link."""
+
+
+def no_delay() -> float:
+    """Return the delay of nodes on this machine."""
+    return 0.0
+
 
 MIN_POLLS = 5
 """The minimum number of polls before a timeout.
@@ -43,9 +57,10 @@ class NoAnswer(Exception):
 class Calls:
     """Calls services from coroutines in the console's executor."""
 
-    def __init__(self, node: Node, gate: Gate) -> None:
+    def __init__(self, node: Node, gate: Gate, link_delay: LinkDelay = no_delay) -> None:
         self._node = node
         self._gate = gate
+        self._link_delay = link_delay
         self._clients: dict[tuple[str, str], Any] = {}
 
     def run(self, work: Callable[[], Coroutine[Any, Any, object]]) -> None:
@@ -53,22 +68,26 @@ class Calls:
         self._gate.run(work, lambda why: None, changes=False)
 
     async def ask(self, kind: Any, service: str, request: Any, timeout_s: float = ANSWER_TIMEOUT_S) -> Any:
-        """Call a service; raises `NoAnswer` when there is no server or none responds in time."""
+        """Call a service; raises `NoAnswer` when there is no server or none responds in time.
+
+        A slow link gets more time than `timeout_s`.
+        """
         client = self._client(kind, service)
         if not (client.service_is_ready() or await self._wait_until_ready(client, service)):
             raise NoAnswer(f"no service {service} is offered; has its node ended?")
         answer: RosFuture[Any] = client.call_async(request)
         period, away = min(MAX_POLL_S, timeout_s / MIN_POLLS), 0
-        polls = itertools.count(1)
+        polls, allowed_s = itertools.count(1), timeout_s
 
         def poll() -> None:
-            nonlocal away
+            nonlocal away, allowed_s
+            allowed_s = max(allowed_s, timeout_s + round(LINK_DELAYS * self._link_delay()))
             away = 0 if _is_available(client) else away + 1
             if away >= GONE_POLLS:
                 self._give_up(answer, client, f"{service} went away before it answered; has its node ended?")
-            elif next(polls) * period >= timeout_s:
+            elif next(polls) * period >= allowed_s:
                 hint = "its node may be busy or hung, or its link slow, and it may still carry out the request"
-                self._give_up(answer, client, f"{service} did not answer within {timeout_s:g} s; {hint}")
+                self._give_up(answer, client, f"{service} did not answer within {allowed_s:g} s; {hint}")
 
         timer = self._node.create_timer(period, poll)
         try:

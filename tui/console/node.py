@@ -54,13 +54,15 @@ class ConsoleNode:
         )
         self.executor = SingleThreadedExecutor(context=robot.context)
         self.executor.add_node(self.node)
-        calls = Calls(self.node, ports.gate)
+        calls = Calls(self.node, ports.gate, ports.link_delay)
         self._warnings = GraphWarnings(ports.logs.add)
         self._rosout = RosoutWatch(self.node, ports.logs.add, foreign=foreign)
         self.loggers = self._rosout.loggers
         """Names of the loggers whose lines have arrived over `/rosout`."""
         self._world = WorldWatch(self.node)
-        self._graph = GraphWatch(self.node, self._graph_changed, graph_events, halted, foreign=foreign)
+        self._graph = GraphWatch(
+            self.node, self._graph_changed, graph_events, halted, foreign=foreign, link_delay=ports.link_delay
+        )
         ports.logs.attach(LoggerLevels(calls, self.loggers))
         ports.plots.attach(PlotWatch(self.node))
         ports.drive.attach(self._world)

@@ -95,6 +95,10 @@ class NodePorts:
         self.gate.read_only = READ_ONLY
         self._capabilities = replace(self._capabilities, change=READ_ONLY)
 
+    def link_delay(self) -> float:
+        """The latest round-trip time of the link to the robot, in s; 0 if it is unknown, or there is no link."""
+        return (self._link().delay_ms or 0) / 1000
+
     def _profile_at(self, path: str) -> str:
         """The name of the profile with that path; empty if there is none."""
         if self._by_path[0] is not self.profiles.all:

@@ -10,6 +10,7 @@ from collections.abc import Callable
 from functools import partial
 from typing import Any
 
+from bot_console.tui.console.calls import LINK_DELAYS, LinkDelay, no_delay
 from bot_console.tui.console.model import GraphInfo
 from rcl_interfaces.srv import GetParameterTypes
 from rclpy.node import Node
@@ -20,10 +21,10 @@ POLL_S = 0.5
 """Seconds between two polls."""
 OVERDUE_POLLS = 2
 """Polls after which a response is overdue. Counting polls instead of time keeps nodes from seeming late when this
-program itself got no processor time.
+program itself got no processor time. On a slow link, `LINK_DELAYS` round trips are added.
 """
 RETRY_POLLS = 4
-"""Polls after which a request counts as lost and is sent again."""
+"""Polls after which a request counts as lost and is sent again; on a slow link more."""
 MAX_REQUESTS_PER_POLL = 25
 """Requests per poll; if there are more nodes, each is asked less often."""
 
@@ -51,8 +52,11 @@ class UnresponsiveNodes:
     `changed` receives the names of the nodes that do not respond. All methods are called by the executor's thread.
     """
 
-    def __init__(self, node: Node, changed: Callable[[tuple[str, ...]], None]) -> None:
+    def __init__(
+        self, node: Node, changed: Callable[[tuple[str, ...]], None], link_delay: LinkDelay = no_delay
+    ) -> None:
         self._node = node
+        self._link_delay = link_delay
         self._changed = changed
         self._timer: Any = None
         self._nodes: dict[str, _PolledNode] = {}
@@ -81,11 +85,11 @@ class UnresponsiveNodes:
         """Find the nodes that have not responded, and ask those whose turn it is."""
         for each in self._nodes.values():
             each.polls += 1
-        late = {name for name, each in self._nodes.items() if each.waiting and each.polls >= OVERDUE_POLLS}
+        on_the_way = round(LINK_DELAYS * self._link_delay() / POLL_S)
+        overdue, retry = OVERDUE_POLLS + on_the_way, RETRY_POLLS + 2 * on_the_way
+        late = {name for name, each in self._nodes.items() if each.waiting and each.polls >= overdue}
         self._report(self._silent | late)
-        due = [
-            name for name, each in self._nodes.items() if each.polls >= (RETRY_POLLS if each.waiting else OVERDUE_POLLS)
-        ]
+        due = [name for name, each in self._nodes.items() if each.polls >= (retry if each.waiting else OVERDUE_POLLS)]
         for name in due[:MAX_REQUESTS_PER_POLL]:
             self._ask(name)
 

@@ -8,6 +8,7 @@ from dataclasses import replace
 from time import monotonic, thread_time
 from typing import Any
 
+from bot_console.tui.console.calls import LinkDelay, no_delay
 from bot_console.tui.console.graph.full_name import full_node_name
 from bot_console.tui.console.graph.observer import Observer
 from bot_console.tui.console.graph.pairs import UnheardPairs
@@ -65,6 +66,7 @@ class GraphWatch:
         halted: HaltedNodes | None = None,
         *,
         foreign: bool = False,
+        link_delay: LinkDelay = no_delay,
     ) -> None:
         """In a `foreign` system, events report which nodes come and go, but not which of them hang."""
         self.info = GraphInfo()
@@ -81,7 +83,7 @@ class GraphWatch:
         self._reported = events is not None
         self._asks_nodes = foreign or events is None
         self._unheard = UnheardPairs(self._observer)
-        self._silence = UnresponsiveNodes(node, self._set_silent_nodes)
+        self._silence = UnresponsiveNodes(node, self._set_silent_nodes, link_delay)
         self._end = events(node.context.get_domain_id(), self._news.append) if events else _do_nothing
         node.create_timer(GRAPH_POLL_S, self._tick)
 

@@ -54,6 +54,18 @@ def test_request_without_an_answer_may_still_be_carried_out():
         asking.send(None)
 
 
+def test_slow_link_gets_more_time_even_if_it_became_slow_after_the_request():
+    node, delays_s = StubNode(), [0.02, 4.6, *[0.02] * 17]
+    asking = Calls(node, None, iter(delays_s).__next__).ask(Trigger, "/far", Trigger.Request())
+    asking.send(None)
+    for _ in delays_s[1:]:
+        node.fire()
+        assert not node.answer.done()
+    node.fire()
+    with pytest.raises(NoAnswer, match=r"/far did not answer within 19 s"):
+        asking.send(None)
+
+
 def test_a_server_that_disappears_is_reported_before_the_timeout():
     node = StubNode()
     asking = Calls(node, None).ask(Trigger, "/home", Trigger.Request(), 30.0)

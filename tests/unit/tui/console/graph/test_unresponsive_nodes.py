@@ -44,7 +44,8 @@ class Bench:
             create_timer=lambda period, tick: self.timers.append(tick) or tick,
             destroy_timer=self.timers.remove,
         )
-        self.watch = UnresponsiveNodes(node, lambda silent: setattr(self, "silent", silent))
+        self.link_delay_s = 0.0
+        self.watch = UnresponsiveNodes(node, lambda silent: setattr(self, "silent", silent), lambda: self.link_delay_s)
 
     def tick(self, times: int = 1, *answering: str) -> None:
         """Poll `times` times; the nodes named respond at once."""
@@ -86,6 +87,18 @@ def test_a_late_response_revives_a_node_and_a_lost_request_is_repeated(bench: Be
     assert bench.silent == ("/arm",) and arm.given_up >= 1
     arm.asked[-1].set_result(None)
     assert bench.silent == ()
+
+
+def test_a_response_that_takes_as_long_as_the_link_is_not_missed(bench: Bench) -> None:
+    bench.link_delay_s = 4.0
+    arm = bench.clients["/arm"]
+    bench.tick(12, "/base")
+    assert bench.silent == () and len(arm.asked) == 1 and not arm.given_up
+    arm.asked[0].set_result(None)
+    bench.tick(27, "/base")
+    assert bench.silent == ()
+    bench.tick(1, "/base")
+    assert bench.silent == ("/arm",)
 
 
 def test_no_node_is_asked_more_than_once_a_second(bench: Bench) -> None:
