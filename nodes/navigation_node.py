@@ -17,9 +17,9 @@ import nav2_msgs.msg  # pyright: ignore[reportMissingImports] -- made when it is
 from bot_console_robot.common.parameters import fixed, number
 from bot_console_robot.common.running import run
 from bot_console_robot.navigation.action_goal import Goal, run_goal
-from bot_console_robot.navigation.driving import Point
+from bot_console_robot.navigation.goal_motion import DriveStraight, FollowPath, Spin, Task, Wait
+from bot_console_robot.navigation.path_following import Point
 from bot_console_robot.navigation.planner import NoPath
-from bot_console_robot.navigation.tasks import DriveStraight, FollowPath, Spin, Task, Wait
 from bot_console_robot.navigation.world_model import WorldModel
 from bot_console_robot.simulation_ros.messages import heading_of, quaternion
 from geometry_msgs.msg import Pose, PoseStamped, Twist, TwistStamped

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, ClassVar, cast
 
 from bot_console.tui import keymap
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.arrangement.startup import ORDERED, STATUS_PLACEHOLDER, StartupSequence, System
 from bot_console.tui.console.model import ConsoleSnapshot

@@ -11,8 +11,8 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from bot_console.tui.arrangement.faults import FaultHandler
-from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.pane_maker import PaneMaker
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.commanding.command_handler import CommandHandler
 from bot_console.tui.commanding.recording import BagRecording

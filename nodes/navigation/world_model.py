@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 import numpy.typing as npt
 from bot_console_robot.common.scans import SCANS, ranges_of
-from bot_console_robot.navigation.driving import Limits, Point, Pose
+from bot_console_robot.navigation.goal_motion import Observation
+from bot_console_robot.navigation.path_following import Limits, Point, Pose
 from bot_console_robot.navigation.planner import Grid, NoPath, Planner
-from bot_console_robot.navigation.tasks import Observation
 from bot_console_robot.simulation_ros.messages import heading_of
 from geometry_msgs.msg import PoseWithCovarianceStamped
 from nav_msgs.msg import OccupancyGrid, Odometry

@@ -10,8 +10,8 @@ import sys
 from collections.abc import Iterable, Mapping
 
 from bot_console.runtime.children.child_discovery import RANGE_VARIABLE, children_meet
-from bot_console.runtime.commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.importer import is_installed
+from bot_console.runtime.ros_commands import BIN, COMMAND_VARIABLE, command
 from bot_console.runtime.shim_folder import shim_folder
 from bot_console.runtime.workspace.discover import SOURCED_VARIABLE, workspace
 from bot_console.runtime.workspace.program import source_folders

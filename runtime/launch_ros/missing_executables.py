@@ -8,7 +8,7 @@ import launch.logging
 from ament_index_python.packages import PackageNotFoundError
 from bot_console.runtime.programs.hints import at, no_package
 from bot_console.runtime.programs.missing_packages import what_provides
-from bot_console.runtime.workspace.choices import package_names
+from bot_console.runtime.workspace.available_names import package_names
 from bot_console.runtime.workspace.executables import executables
 from bot_console.runtime.workspace.not_found import what_to_add
 from launch.substitutions import SubstitutionFailure

@@ -7,7 +7,7 @@ import os
 from collections.abc import Generator, Iterable, Sequence
 
 from bot_console.runtime.programs.hints import did_you_mean, is_read
-from bot_console.runtime.workspace.choices import launch_file_names
+from bot_console.runtime.workspace.available_names import launch_file_names
 from ros2cli.advice import launch_files
 
 

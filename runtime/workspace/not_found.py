@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bot_console.runtime.programs.hints import did_you_mean
-from bot_console.runtime.workspace.choices import all_executable_names, package_names
+from bot_console.runtime.workspace.available_names import all_executable_names, package_names
 from bot_console.runtime.workspace.discover import workspace
 
 

@@ -25,7 +25,7 @@ install()
 sys.path[:0] = [str(Path(__file__).parents[1] / "helpers")]
 
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Range
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows

@@ -24,7 +24,7 @@ import numpy as np
 from bench_logs import filled_store
 from bench_simulation import WORLDS
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.model import (
     Endpoint,

@@ -62,7 +62,7 @@ def console_line(words: Sequence[str]) -> None:
 
 
 def line(text: str) -> None:
-    from bot_console.tui.arrangement.opening import is_rqt, parse_rqt_command
+    from bot_console.tui.arrangement.rqt_command_line import is_rqt, parse_rqt_command
 
     if is_rqt(text.split()):
         parse_rqt_command(text.split())

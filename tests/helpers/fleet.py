@@ -25,8 +25,8 @@ from bot_console.tui.console.model import (
     Severity,
 )
 from bot_console.tui.console.robot.robot_model import DriveInfo
+from bot_console.tui.console.sensors.camera_image import IMAGE, Picture
 from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level
-from bot_console.tui.console.sensors.picture import IMAGE, Picture
 from bot_console.tui.console.topics.port import Measure
 from fakes.console import START, FakeConsole
 from fakes.launcher import FakeLauncher

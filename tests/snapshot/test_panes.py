@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.app import BotConsoleApp
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.pane_table import PANES
 from bot_console.tui.panes.steering.pane import SteeringPane
 from fakes.console import FakeConsole

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.tui import __version__
-from bot_console.tui.arrangement.opening import Opening, is_rqt, parse_rqt_command
+from bot_console.tui.arrangement.rqt_command_line import Opening, is_rqt, parse_rqt_command
 from bot_console.tui.cli.numbers import positive, seed
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.session.embedded.named_profile import (

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from bot_console.runtime.workspace.not_found import no_package
-from bot_console.tui.cli.programs import program_arguments
+from bot_console.tui.cli.program_launch import program_arguments
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 
 

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.rmw.zenoh.domain.folder import FolderRefusedError
-from bot_console.tui.arrangement.opening import Opening
 from bot_console.tui.arrangement.plugin_pane import PluginEntry
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.learn.command_log import open_log
 from bot_console.tui.learn.course import CourseError, find_course, names, read_course

@@ -88,7 +88,7 @@ def main(argv: Sequence[str] | None = None) -> int:
         return 2
     if words and words[0] in ros2.VERBS:  # first, to answer these fastest
         return ros2.run_in_domain(words)
-    from bot_console.tui.arrangement.opening import is_rqt, names_system
+    from bot_console.tui.arrangement.rqt_command_line import is_rqt, names_system
 
     if is_rqt(words):
         if others_take_part() or not names_system(words):

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.arrangement.stage import Stage
 from bot_console.tui.child_command import child_command
 from bot_console.tui.commanding.completion import Completion

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from functools import partial
 
-from bot_console.tui.arrangement.opening import is_rqt
+from bot_console.tui.arrangement.rqt_command_line import is_rqt
 from bot_console.tui.keymap import TABLE
 from bot_console.tui.keys.key import Key, key_text
 from bot_console.tui.pane_table import PANES

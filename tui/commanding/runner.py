@@ -9,7 +9,7 @@ from concurrent.futures import Future
 from difflib import get_close_matches
 from typing import Any, Protocol
 
-from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, parse_rqt_command
+from bot_console.tui.arrangement.rqt_command_line import RQT_PANES, Opening, is_rqt, parse_rqt_command
 from bot_console.tui.commanding.verbs import VERBS, bag_problem, parse_setting, places, split_curves, usage_problem
 from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.command_gate import done

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING
 import rclpy
 from bot_console.tui.console.calls import Calls
 from bot_console.tui.console.graph.lifecycle import LifecycleWatch
-from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.graph.warning_log import GraphWarnings
 from bot_console.tui.console.graph.watch import GraphEvents, GraphWatch, HaltedNodes
 from bot_console.tui.console.logs.levels import LoggerLevels
 from bot_console.tui.console.logs.rosout import RosoutWatch

@@ -7,7 +7,7 @@ from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
 from bot_console.tui.console.parameter_types import ARRAYS, TYPES, field_of
-from bot_console.tui.console.parameters.origin import START
+from bot_console.tui.console.parameters.origin_text import START
 from rcl_interfaces.msg import Parameter, ParameterDescriptor, ParameterValue
 
 

@@ -8,7 +8,7 @@ from collections.abc import Collection, Mapping
 from pathlib import Path
 from typing import Any, cast
 
-from bot_console.tui.arrangement.opening import RQT_PANES
+from bot_console.tui.arrangement.rqt_command_line import RQT_PANES
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store

@@ -7,7 +7,7 @@ import time
 from collections.abc import Callable
 from typing import Any, ClassVar
 
-from bot_console.tui.text.cadence import is_due
+from bot_console.tui.text.redraw_interval import is_due
 from bot_console.tui.widgets.static_text import StaticText
 from rich.text import Text
 

@@ -18,8 +18,8 @@ from ..crashes import explanation
 from ..current import MAIN
 from ..notices import notify, on_notice
 from ..stack_frames import format_exception, trim
+from ..watch.busy_main_thread import MainWatch
 from ..watch.gil_watch import GilWatch
-from ..watch.main_watch import MainWatch
 from .job import function_named
 from .server import HELD_BACK, NewChild
 from .shown_command import show_command

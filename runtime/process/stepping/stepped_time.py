@@ -15,7 +15,7 @@ from ..node.signals import SIGKILL
 from ..node.thread_state import ThreadState, local
 from ..notices import notify
 from ..virtual.install import install_virtual_process
-from ..watch.stall_watch import StallWatch
+from ..watch.stepped_stall import StallWatch
 from .calls import install_stepped_calls, uninstall_stepped_calls
 from .one_cpu import pin_thread
 from .scheduler import ScheduledTask, Scheduler

@@ -11,7 +11,7 @@ import threading
 from functools import partial
 from types import FrameType
 
-from bot_console.runtime.workspace.choices import launch_file_names, package_names
+from bot_console.runtime.workspace.available_names import launch_file_names, package_names
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
 from ros2cli.advice import advise, launch_files

@@ -32,7 +32,7 @@ from bot_console.tui.console.model import (
 )
 from bot_console.tui.console.parameters.file.saving import save
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
-from bot_console.tui.console.parameters.origin import origin_text
+from bot_console.tui.console.parameters.origin_text import origin_text
 from bot_console.tui.console.parameters.profiles import cannot_apply, differences
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.values import refusal

@@ -6,9 +6,9 @@ from concurrent.futures import Future
 
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.command_gate import done
+from bot_console.tui.console.sensors.camera_image import Picture
 from bot_console.tui.console.sensors.diagnostic_status import Diagnostics, Level, ReportedStatus, Status
 from bot_console.tui.console.sensors.frames import Frames
-from bot_console.tui.console.sensors.picture import Picture
 
 
 class FakeSensors:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.sensors.picture import Picture
+from bot_console.tui.console.sensors.camera_image import Picture
 from bot_console.tui.panes.images.pane import ImagesPane, ImageView
 from piloting import Session, run
 from samples import empty, with_camera

@@ -9,7 +9,7 @@ import pytest
 from base_rig import Base, served_base
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.console.command_gate import CLOSED, READ_ONLY
-from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.graph.warning_log import GraphWarnings
 from bot_console.tui.console.model import GraphInfo, LogFilter
 from bot_console.tui.console.ros_console import RosConsole
 from rigs import TIMEOUT_S, until

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 
 import pytest
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.console.model import Endpoint, GraphInfo
 from bot_console.tui.panes.parameters.pane import ParametersPane
 from bot_console.tui.panes.parameters.table import ParameterRows

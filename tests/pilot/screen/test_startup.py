@@ -9,7 +9,7 @@ from typing import cast
 import pytest
 from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement import startup
-from bot_console.tui.arrangement.opening import Opening
+from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.arrangement.startup import ORDERED, StartupSequence, System
 from bot_console.tui.layout.named import BUILT_IN, OVERVIEW
 from bot_console.tui.layout.tree import panes

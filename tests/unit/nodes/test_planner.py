@@ -7,9 +7,7 @@ import math
 
 import numpy as np
 import pytest
-from bot_console_robot.navigation.driving import Limits, PathFollower
-from bot_console_robot.navigation.planner import Grid, NoPath, Planner
-from bot_console_robot.navigation.tasks import (
+from bot_console_robot.navigation.goal_motion import (
     COLLISION_AHEAD,
     FAILED_TO_MAKE_PROGRESS,
     DriveStraight,
@@ -17,6 +15,8 @@ from bot_console_robot.navigation.tasks import (
     Observation,
     Spin,
 )
+from bot_console_robot.navigation.path_following import Limits, PathFollower
+from bot_console_robot.navigation.planner import Grid, NoPath, Planner
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -9,7 +9,7 @@ from xml.etree import ElementTree
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.programs.hints import did_you_mean
-from bot_console.runtime.workspace.choices import package_names
+from bot_console.runtime.workspace.available_names import package_names
 from bot_console.runtime.workspace.executables import executables
 from bot_console.tui.cli.lint.finding import LintFinding
 from bot_console.tui.cli.lint.launch_file import MANIFEST, folder_of_package, package_name

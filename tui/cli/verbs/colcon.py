@@ -7,7 +7,7 @@ from collections.abc import Iterator, Sequence
 from pathlib import Path
 
 from bot_console.runtime.importer import install
-from bot_console.runtime.workspace.choices import package_names
+from bot_console.runtime.workspace.available_names import package_names
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.tui.cli.lint.packaging import obstacles
 from bot_console.tui.cli.verbs.sourced import write_setup_files

@@ -8,7 +8,7 @@ import sys
 from bot_console.tui.cli.arguments import SIMULATOR_HELP, Options
 from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.cli.numbers import positive, seed
-from bot_console.tui.cli.programs import program_arguments
+from bot_console.tui.cli.program_launch import program_arguments
 from bot_console.tui.cli.verbs import ros2
 from bot_console.tui.session.embedded.domain import take_part
 from bot_console.tui.session.embedded.reaching import named_routers, reach_system, report_left_router

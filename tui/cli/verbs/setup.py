@@ -9,8 +9,8 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.runtime.commands import BIN, command
 from bot_console.runtime.distribution import VARIABLE, distribution
+from bot_console.runtime.ros_commands import BIN, command
 from bot_console.runtime.shim_folder import kept_shim_folder
 from bot_console.tui.cli.distro_option import OPTION
 from bot_console.tui.cli.shell_python import python_of_shell

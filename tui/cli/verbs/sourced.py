@@ -7,7 +7,7 @@ import shlex
 from collections.abc import Sequence
 from pathlib import Path
 
-from bot_console.runtime.commands import command
+from bot_console.runtime.ros_commands import command
 from bot_console.runtime.workspace.builtin_package import is_own
 from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import SOURCED_VARIABLE, Workspace

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Protocol, TypeAlias
 
-from bot_console.tui.console.graph.findings import debugger_text
-from bot_console.tui.text.cadence import is_due
+from bot_console.tui.console.graph.anomalies import debugger_text
+from bot_console.tui.text.redraw_interval import is_due
 
 CPU_POLL_S = 1.0
 """Seconds over which CPU usage is measured; at the same moments for all processes, which are drawn together."""

@@ -22,7 +22,7 @@ from bot_console.tui.console.model import (
     parameter_in,
     same,
 )
-from bot_console.tui.console.parameters.origin import START, origin_text
+from bot_console.tui.console.parameters.origin_text import START, origin_text
 from bot_console.tui.console.parameters.provenance import Provenance
 from bot_console.tui.console.values import from_message, info
 from bot_console.tui.text.natural import natural_key

@@ -13,7 +13,7 @@ from dataclasses import dataclass, replace
 from typing import Any, cast
 
 from bot_console.tui.console.model import ParameterInfo, Value, same
-from bot_console.tui.console.parameters.origin import START
+from bot_console.tui.console.parameters.origin_text import START
 
 COMMAND_LINE = "-p"
 """A node reports this as the source of a value from its command line; other sources are file paths or text."""

@@ -10,7 +10,7 @@ from typing import Any
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.calls import Calls, NoAnswer
 from bot_console.tui.console.model import RESTARTED, ChangeSource, SetOutcome, Value, same
-from bot_console.tui.console.parameters.expected import ExpectedEvents, ParameterRequest
+from bot_console.tui.console.parameters.expected_events import ExpectedEvents, ParameterRequest
 from bot_console.tui.console.parameters.journal import Journal, Move, Step
 from bot_console.tui.console.parameters.mirror import ParameterMirror
 from bot_console.tui.console.values import refusal, to_message

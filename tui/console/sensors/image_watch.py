@@ -9,8 +9,8 @@ from typing import Any
 
 import numpy as np
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.sensors import pixels
-from bot_console.tui.console.sensors.picture import COMPRESSED, IMAGE, Picture
+from bot_console.tui.console.sensors import image_conversion
+from bot_console.tui.console.sensors.camera_image import COMPRESSED, IMAGE, Picture
 from bot_console.tui.console.topics.followed_topic import FollowedTopic
 from bot_console.tui.console.topics.offered_topics import Offer
 from rclpy.node import Node
@@ -81,14 +81,14 @@ class ImageWatch(FollowedTopic):
         )
 
 
-def _convert(message: Any, columns: int, rows: int) -> tuple[int, int, str, pixels.Pixels, str]:
+def _convert(message: Any, columns: int, rows: int) -> tuple[int, int, str, image_conversion.Pixels, str]:
     """Width, height, encoding, the scaled pixels, and a note about them; raises `ValueError`."""
     if hasattr(message, "encoding"):
-        shown, output = pixels.scaled(message, columns, rows)
+        shown, output = image_conversion.scaled(message, columns, rows)
         return int(message.width), int(message.height), str(message.encoding), shown, output
     image = _decode_image(bytes(message.data))
     height, width = image.shape[:2]
-    return width, height, str(message.format)[:24], pixels.scale_rgb(image, columns, rows), ""
+    return width, height, str(message.format)[:24], image_conversion.scale_rgb(image, columns, rows), ""
 
 
 def _decode_image(data: bytes) -> Any:

@@ -7,9 +7,9 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.command_gate import Gate
 from bot_console.tui.console.model import GraphInfo
+from bot_console.tui.console.sensors.camera_image import Picture
 from bot_console.tui.console.sensors.diagnostic_status import Diagnostics
 from bot_console.tui.console.sensors.frames import Frames
-from bot_console.tui.console.sensors.picture import Picture
 
 if TYPE_CHECKING:
     from bot_console.tui.console.sensors.diagnostics_watch import DiagnosticsWatch

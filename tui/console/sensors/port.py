@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Protocol
 
+from bot_console.tui.console.sensors.camera_image import Picture
 from bot_console.tui.console.sensors.diagnostic_status import Diagnostics
 from bot_console.tui.console.sensors.frames import Frames
-from bot_console.tui.console.sensors.picture import Picture
 
 
 class Sensors(Protocol):

@@ -15,7 +15,7 @@ from bot_console.tui.panes.alarms.condition import parse_condition
 from bot_console.tui.panes.alarms.rows import AlarmRows, alarm_row, check_row, suggestion_row
 from bot_console.tui.panes.alarms.templates import templates
 from bot_console.tui.panes.list_pane import ListPane
-from bot_console.tui.text.cadence import is_due
+from bot_console.tui.text.redraw_interval import is_due
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Line

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 
-from bot_console.tui.console.graph.findings import SILENT, debugger_text
+from bot_console.tui.console.graph.anomalies import SILENT, debugger_text
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
 from bot_console.tui.panes.transitions import state_text

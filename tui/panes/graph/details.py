@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 
-from bot_console.tui.console.graph.findings import GraphFinding, findings
+from bot_console.tui.console.graph.anomalies import GraphFinding, findings
 from bot_console.tui.console.graph.lifecycle_states import TRANSITIONS
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo
 from bot_console.tui.panes.graph.about import node_of, nodes_on_topic, server_types, topic_types

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Collection, Iterable, Mapping, Sequence
 
-from bot_console.tui.console.graph.findings import findings
+from bot_console.tui.console.graph.anomalies import findings
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.about import node_of, nodes_on_topic, summary
 from bot_console.tui.panes.graph.bundles import LINE, LOOP

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from bot_console.tui.console.topics.port import Measure, Topics
-from bot_console.tui.text.cadence import is_due
 from bot_console.tui.text.figures import coarse_rate, steady
+from bot_console.tui.text.redraw_interval import is_due
 
 RATE_POLL_S = 2.0
 READER = "graph"

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import numpy.typing as npt
-from bot_console.tui.console.sensors.picture import Picture
+from bot_console.tui.console.sensors.camera_image import Picture
 from bot_console.tui.widgets.picture import Line, merged_line
 
 Pixels = npt.NDArray[np.uint8]

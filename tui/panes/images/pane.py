@@ -8,8 +8,8 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
-from bot_console.tui.console.sensors.picture import COMPRESSED, IMAGE
-from bot_console.tui.console.sensors.picture import Picture as Seen
+from bot_console.tui.console.sensors.camera_image import COMPRESSED, IMAGE
+from bot_console.tui.console.sensors.camera_image import Picture as Seen
 from bot_console.tui.panes.images import drawing
 from bot_console.tui.panes.images.frame_limit import FrameLimit
 from bot_console.tui.panes.pane import Pane

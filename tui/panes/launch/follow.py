@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 
 from bot_console.tui.console.model import LogRecord, LogState, ProcessInfo, Severity, logger_of
-from bot_console.tui.text.cadence import is_due
+from bot_console.tui.text.redraw_interval import is_due
 
 CPU_SAMPLE_S = 2.0
 """Seconds between two samples of the CPU usage."""

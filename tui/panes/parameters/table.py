@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from bot_console.tui.console.model import ChangeSource, ParameterInfo
 from bot_console.tui.console.parameters.edits import ParameterEdits
-from bot_console.tui.console.parameters.origin import SET_BY
+from bot_console.tui.console.parameters.origin_text import SET_BY
 from bot_console.tui.console.query import Query
 from bot_console.tui.panes.parameters.columns import (
     GAP_CELLS,

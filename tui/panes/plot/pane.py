@@ -6,7 +6,7 @@ from collections.abc import Collection, Sequence
 from typing import Any, ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.arrangement.opening import matching
+from bot_console.tui.arrangement.rqt_command_line import matching
 from bot_console.tui.console.model import ConsoleSnapshot, JournalState
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.plot import view as plot_view

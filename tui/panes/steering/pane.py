@@ -24,7 +24,7 @@ from bot_console.tui.panes.steering.state import (
     robot_of,
 )
 from bot_console.tui.panes.steering.view import lines, same_but_velocities
-from bot_console.tui.text.cadence import is_due
+from bot_console.tui.text.redraw_interval import is_due
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.prompt.question import Choice, Line, Option

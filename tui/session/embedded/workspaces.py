@@ -10,8 +10,8 @@ from pathlib import Path
 from typing import Any
 
 from bot_console.runtime.programs.installed_entry_points import installed_entry_points, package_of
+from bot_console.runtime.workspace.available_names import launch_file_paths
 from bot_console.runtime.workspace.builtin_package import FIRST_VARIABLE, NAME, PAGE_NAME, ROOT, is_own
-from bot_console.runtime.workspace.choices import launch_file_paths
 from bot_console.runtime.workspace.demos import is_demo
 from bot_console.runtime.workspace.discover import Workspace, default_folders, use, workspace
 from bot_console.runtime.workspace.package import Package

@@ -10,7 +10,7 @@ from functools import cache
 from pathlib import Path
 
 import pytest
-from bot_console.runtime.commands import command
+from bot_console.runtime.ros_commands import command
 from bot_console.runtime.shim_folder import kept_shim_folder
 from bot_console.tui import __version__
 from bot_console.tui.cli.main import main

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import pytest
 from base_rig import Base, served_base
-from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.graph.warning_log import GraphWarnings
 from bot_console.tui.console.logs.rosout import RosoutWatch
 from bot_console.tui.console.model import ChangeSource, LogFilter
 from bot_console.tui.console.parameters.history_file import History

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.arrangement.opening import RQT_PANES
+from bot_console.tui.arrangement.rqt_command_line import RQT_PANES
 from bot_console.tui.layout.form import LayoutError, tree_from_data, tree_to_data
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.placing import Box, borders, boxes, neighbour

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
-from bot_console.tui.console.parameters.origin import START
+from bot_console.tui.console.parameters.origin_text import START
 from bot_console.tui.console.parameters.provenance import Provenance
 
 PROFILES = {"/profiles/indoor.yaml": "indoor"}

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.console.graph.findings import findings
+from bot_console.tui.console.graph.anomalies import findings
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.console.query import parse
 from bot_console.tui.panes.graph.about import summary

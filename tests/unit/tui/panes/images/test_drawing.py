@@ -5,7 +5,7 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from bot_console.tui.console.sensors.picture import Picture
+from bot_console.tui.console.sensors.camera_image import Picture
 from bot_console.tui.panes.images.drawing import characters, cost, half_blocks, pixels_of, steady
 from bot_console.tui.panes.images.frame_limit import BUDGET_BYTES_PER_S, FrameLimit
 

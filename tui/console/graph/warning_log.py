@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 from collections.abc import Hashable, Iterator
 
-from bot_console.tui.console.graph.findings import duplicate_name_text, resume_hint
+from bot_console.tui.console.graph.anomalies import duplicate_name_text, resume_hint
 from bot_console.tui.console.launch.process_output import Add
 from bot_console.tui.console.model import GraphInfo, NodeInfo, Severity
 from bot_console.tui.console.robot.command_topics import command_types_of

@@ -9,8 +9,8 @@ from pathlib import Path
 
 from bot_console.runtime.importer import install
 from bot_console.runtime.programs.python_file_check import examine
+from bot_console.runtime.workspace.available_names import all_executable_names, package_names
 from bot_console.runtime.workspace.builtin_package import PAGE_NAME
-from bot_console.runtime.workspace.choices import all_executable_names, package_names
 from bot_console.runtime.workspace.not_found import no_executable, no_package
 
 

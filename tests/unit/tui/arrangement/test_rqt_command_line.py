@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.arrangement.opening import RQT_PANES, Opening, is_rqt, matching, parse_rqt_command
+from bot_console.tui.arrangement.rqt_command_line import RQT_PANES, Opening, is_rqt, matching, parse_rqt_command
 from bot_console.tui.cli.arguments import parse
 
 

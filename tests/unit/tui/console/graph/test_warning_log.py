@@ -6,7 +6,7 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import pytest
-from bot_console.tui.console.graph.warnings import GraphWarnings
+from bot_console.tui.console.graph.warning_log import GraphWarnings
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 CMD_VEL = (Endpoint("/cmd_vel", ("geometry_msgs/msg/Twist",)),)

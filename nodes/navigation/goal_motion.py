@@ -6,7 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
-from bot_console_robot.navigation.driving import (
+from bot_console_robot.navigation.path_following import (
     Limits,
     PathFollower,
     Point,

@@ -8,8 +8,8 @@ from pathlib import Path
 
 import pytest
 from bot_console.runtime.process import unpatched
-from bot_console.runtime.process.watch import main_watch
-from bot_console.runtime.process.watch.main_watch import PERIOD_S, REPORT_S, MainWatch
+from bot_console.runtime.process.watch import busy_main_thread
+from bot_console.runtime.process.watch.busy_main_thread import PERIOD_S, REPORT_S, MainWatch
 from bot_console.runtime.process.watch.processor_time import wanted_seconds
 
 
@@ -23,7 +23,7 @@ class Time:
         self.reported: list[str] = []
         patch.setattr(unpatched, "monotonic", lambda: self.now)
         patch.setattr(unpatched, "later", self._later)
-        patch.setattr(main_watch, "ran_and_waited", lambda task: (self.ran, self.waited))
+        patch.setattr(busy_main_thread, "ran_and_waited", lambda task: (self.ran, self.waited))
 
     def _later(self, seconds: float, action: Callable[[], None]) -> None:
         assert seconds == PERIOD_S
@@ -64,7 +64,7 @@ def test_waiting_for_a_busy_processor_is_neither_wait_nor_computing(time: Time) 
 
 
 def test_slow_import_is_not_reported(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(main_watch.stack_frames, "is_importing", lambda ident: True)
+    monkeypatch.setattr(busy_main_thread.stack_frames, "is_importing", lambda ident: True)
     MainWatch(time.reported.append).begin()
     assert time.polls(10 * POLLS, 1.0) == 0
 
@@ -75,7 +75,7 @@ def test_thread_that_waits_now_and_then_is_not_reported(time: Time) -> None:
 
 
 def test_nothing_is_reported_without_system_statistics(time: Time, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr(main_watch, "ran_and_waited", lambda task: None)
+    monkeypatch.setattr(busy_main_thread, "ran_and_waited", lambda task: None)
     MainWatch(time.reported.append).begin()
     time.next()
     assert time.reported == []

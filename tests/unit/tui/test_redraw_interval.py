@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.text.cadence import is_due
+from bot_console.tui.text.redraw_interval import is_due
 
 
 def test_updates_begun_at_different_times_are_due_at_the_same_moment() -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.graph.findings import findings
+from bot_console.tui.console.graph.anomalies import findings
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
 
 SCAN, TWIST = ("sensor_msgs/msg/LaserScan",), ("geometry_msgs/msg/Twist",)

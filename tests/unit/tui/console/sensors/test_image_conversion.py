@@ -8,8 +8,8 @@ from typing import Any
 
 import numpy as np
 import pytest
+from bot_console.tui.console.sensors.image_conversion import KNOWN, fitted_size, scaled
 from bot_console.tui.console.sensors.image_watch import _convert
-from bot_console.tui.console.sensors.pixels import KNOWN, fitted_size, scaled
 from hypothesis import given
 from hypothesis import strategies as st
 from sensor_msgs.msg import CompressedImage, Image
