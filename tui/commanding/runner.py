@@ -25,6 +25,9 @@ from bot_console.tui.text.value_text import value_text
 STAMP = "%Y_%m_%d-%H_%M_%S"
 """Time stamp in the name of a bag's folder, as in `ros2 bag record`."""
 
+OF_EVERY_ROS2 = ("component", "launch", "pkg", "run")
+"""Commands that are missing only if a machine has an `rclpy` without a `ros2`."""
+
 
 class Host(Protocol):
     """The operations on the screen that command lines need."""
@@ -92,6 +95,9 @@ class LineRunner:
         known = [*VERBS, *RQT_PANES, "ros2", *self._lines.commands()]
         if verb in known or is_rqt(words):
             return self._host.stream_problem(words[words[0] == "ros2" :])
+        if verb in OF_EVERY_ROS2:
+            instead = "o in the Launch pane opens launch files; " if verb == "launch" else ""
+            return f"this machine has no ros2: {instead}here are {', '.join(self._lines.commands())}"
         like = get_close_matches(verb, known, 1, 0.6)
         hint = f"did you mean {like[0]}?" if like else "help lists the commands, ^p finds an action by name"
         return f"there is no command {verb}; {hint}"

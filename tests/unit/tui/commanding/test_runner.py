@@ -66,6 +66,8 @@ def runner() -> tuple[LineRunner, Any, FakeCommandLine]:
         ("bag open /no/such/bag", "there is no bag /no/such/bag"),
         ("layout none", "there is no layout none; there are"),
         ("topc list", "there is no command topc; did you mean topic?"),
+        ("launch a.launch.py", "this machine has no ros2: o in the Launch pane opens launch files; here are "),
+        ("ros2 run a b", "this machine has no ros2: here are node, topic, param"),
         ("zzz", "^p finds an action"),
         ("stop now", "write it as: stop"),
         ("help topic", "ros2 topic -h"),
