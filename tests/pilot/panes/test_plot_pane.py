@@ -46,6 +46,30 @@ def test_a_curve_is_added_by_its_path_with_completion_and_removed() -> None:
     run(live(), play)
 
 
+def test_curve_that_does_not_appear_is_explained_once_and_can_be_removed() -> None:
+    sum_of_message = f"{SPEED} + /scan"
+
+    async def play(session: Session) -> None:
+        session.console.unplottable["/scan"] = "name a field of /scan as well, for instance /scan/range_max"
+        pane = plot(session)
+        await session.press("4", "X")
+        pane.expect([sum_of_message, "/nowhere"])
+        session.console.change()
+        session.console.change()
+        await session.settle()
+        assert "for instance /scan/range_max" in " ".join(session.text().split()) and "/nowhere" in session.text()
+        await session.press("x")
+        assert "/nowhere" not in session.text() and "waiting for" in session.text().lower()
+        await session.press("x")
+        assert "a  Add /topic" in session.text()
+        pane.expect(["/nowhere"])
+        session.console.change()
+        await session.press("X")
+        assert "a  Add /topic" in session.text()
+
+    run(live(), play, (80, 24))
+
+
 @pytest.mark.slow
 def test_unplottable_path_is_rejected_with_a_reason() -> None:
     async def play(session: Session) -> None:

@@ -134,8 +134,9 @@ class PlotPane(PlotQuestions):
                 answer = self._timeline.add(wanted)  # a refusal is not final: its own topic may still appear
                 if answer.ok:
                     del self._expected[wanted]
-                else:
+                elif self._expected[wanted] != answer.text:
                     self._expected[wanted] = answer.text
+                    self.report(answer)  # the frame has room for its beginning only
 
     def tick(self) -> None:
         """Fetch new samples; draw once the newest has moved by a dot, or no more follow."""
@@ -277,11 +278,13 @@ class PlotPane(PlotQuestions):
         self.draw()
 
     def action_remove(self) -> None:
-        """Remove the chosen curve."""
+        """Remove the chosen curve; if there is none, drop what was last asked for and has not appeared."""
         self._touched = True
         if self.paths:
             self._timeline.remove(self._chosen)
             self._chosen = max(0, min(self._chosen, len(self.paths) - 1))
+        elif self._expected:
+            self._expected.popitem()
         self.draw()
 
     def action_pause(self) -> None:

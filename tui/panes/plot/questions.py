@@ -26,6 +26,7 @@ class PlotQuestions(Pane):
     """The base of the plot pane: its curves, and the questions about them."""
 
     _timeline: Timeline
+    _expected: dict[str, str]
     _chosen = 0
     _touched = False
 
@@ -93,8 +94,9 @@ class PlotQuestions(Pane):
             self.notify(hint, title="Only stamps", markup=False)
 
     def action_remove_all(self) -> None:
-        """Remove all curves."""
+        """Remove all curves, including those that have not appeared."""
         self._touched = True
+        self._expected.clear()
         while self.paths:
             self._timeline.remove(0)
         self._chosen = 0
