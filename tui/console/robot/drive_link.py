@@ -102,6 +102,8 @@ class DriveLink:
         self._zeros = False
         self._means = StopSequence([means_of(node, each) for each in means], now)
         self._unlocked: tuple[CommandTopics, ...] = ()
+        self._without_lock: frozenset[str] = frozenset()
+        """The robots without a lock, including those that have left since the stop: their drivers may come back."""
         self._verdict = Verdict()
         self._heard: dict[str, float] = {}
         self._info = DriveInfo()
@@ -129,7 +131,10 @@ class DriveLink:
         self._follow_robot()
         self._replaced |= self._stop.steering and before not in ("", self._robot.robot)
         self._stop.follow(found.locks)
-        self._unlocked = tuple(each for each in self._each_robot() if not found.fleet.scope(each).own(found.locks))
+        present = tuple(self._each_robot())
+        self._unlocked = tuple(each for each in present if not found.fleet.scope(each).own(found.locks))
+        left = self._without_lock.difference(each.robot for each in present) if self._zeros else frozenset[str]()
+        self._without_lock = left.union(each.robot for each in self._unlocked)
 
     def _follow_robot(self) -> None:
         found = self._found
@@ -313,7 +318,9 @@ class DriveLink:
 
     def _repeat(self) -> None:
         self._stop.repeat()
-        if self._stop.info.locks and not (self._stop.stopping or (self._unlocked and self._stop.info.stopped)):
+        if self._stop.has_stop and not (self._stop.info.locks or self._zeros):
+            self._send_zeros(repeated=True)  # the last lock has left the graph
+        if self._stop.info.locks and not (self._stop.stopping or (self._without_lock and self._stop.info.stopped)):
             # A locked robot needs no zeros, which would still hold it after somebody else has released the stop.
             self._zeros = False
             self._means.release()
@@ -328,7 +335,7 @@ class DriveLink:
     @property
     def _needs_means(self) -> bool:
         """Whether a robot has no lock, as far as is known; also true while no lock has been found at all."""
-        return bool(self._unlocked) or not self._stop.info.locks
+        return bool(self._without_lock) or not self._stop.info.locks
 
     @property
     def _holds_by_zeros(self) -> bool:

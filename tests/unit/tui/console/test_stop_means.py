@@ -358,6 +358,42 @@ def test_a_robot_without_lock_beside_one_with_a_lock_is_held_by_zeros_and_named(
     assert "/ MAY MOVE, zeros only" in bench.status
 
 
+def test_a_robot_whose_lock_has_left_is_held_by_zeros_and_other_means(bench: Bench) -> None:
+    states = bench.nodes[1].create_publisher(DiagnosticStatus, LOCK, LATCHED)
+    bench.robot.offer({"set_bool": "/motors/hold"})
+    bench.link_with({"set_bool": "/motors/hold"}, locks=[LOCK])
+    bench.link.stop(True, "ALL STOP")
+    states.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="true")]))
+    bench.pass_time(1.0)
+    bench.robot.velocities.clear()
+    assert bench.info.stop_confirmed and not bench.robot.calls
+    bench.link.follow(robots_with("", locked="none"))
+    bench.pass_time(1.0)
+    assert bench.robot.stands and set(bench.robot.velocities) == {0.0}
+    bench.link.stop(False, "")
+    bench.pass_time(1.0)
+    assert not bench.robot.stands
+
+
+def test_a_means_holds_a_robot_without_lock_while_its_driver_is_gone(bench: Bench) -> None:
+    states = bench.nodes[1].create_publisher(DiagnosticStatus, f"/robot2{LOCK}", LATCHED)
+    bench.robot.offer({"set_bool": "/motors/hold"})
+    bench.link_with({"set_bool": "/motors/hold"})
+    both, other = robots_with("", "/robot2", locked="/robot2"), robots_with("/robot2", locked="/robot2")
+    bench.link.follow(both)
+    bench.settle()
+    bench.link.stop(True, "ALL STOP")
+    bench.settle()
+    states.publish(DiagnosticStatus(values=[KeyValue(key="locked", value="true")]))
+    for graph in (both, other, both):
+        bench.link.follow(graph)
+        bench.pass_time(1.0)
+        assert bench.info.stop_confirmed and bench.robot.stands
+    bench.link.stop(False, "")
+    bench.pass_time(1.0)
+    assert not bench.robot.stands
+
+
 @pytest.mark.parametrize(
     ("data", "problem"),
     [
