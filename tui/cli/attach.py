@@ -6,6 +6,7 @@ import sys
 from collections.abc import Sequence
 
 from bot_console.tui.cli.attach_options import AttachOptions, parse
+from bot_console.tui.cli.terminal_check import NO_TERMINAL_TO_ATTACH, terminal_problem
 from bot_console.tui.session.embedded.domain import others_take_part
 from bot_console.tui.session.machine.choice import choose
 from bot_console.tui.session.machine.console_needs import missing_messages, provide_missing
@@ -30,10 +31,10 @@ def run(words: Sequence[str]) -> int:
 
 
 def _needs_terminal() -> int:
-    if sys.stdout.isatty() and sys.stdin.isatty():
-        return 0
-    print("bot-console needs a terminal; without one, use `bot-console doctor` or the `ros2` commands", file=sys.stderr)
-    return 1
+    problem = terminal_problem(NO_TERMINAL_TO_ATTACH)
+    if problem:
+        print(problem, file=sys.stderr)
+    return 1 if problem else 0
 
 
 def _network(options: AttachOptions) -> int:

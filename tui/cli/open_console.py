@@ -14,6 +14,7 @@ from typing import TYPE_CHECKING
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.cli.attach_question import wants_to_attach
 from bot_console.tui.cli.machine_limits import too_few_files, too_little_address_space, too_small_files
+from bot_console.tui.cli.terminal_check import terminal_problem
 from bot_console.tui.console.model import Severity
 from bot_console.tui.files.folders import state_folder
 from bot_console.tui.session.embedded.child_host import start_host
@@ -113,17 +114,8 @@ def _connect(options: Options, warnings: list[str], own: Host | None, start: Cal
     return ConnectedParts(options, message, hosted_launcher(own, buffer), buffer)
 
 
-NO_TERMINAL = """\
-bot-console needs a terminal, and its input or output is not one. Without a terminal:
-  bot-console --headless --duration 60   run the robot for a minute and print a report
-  bot-console up                         start the robot in the background; see also status and down
-  ssh -t HOST bot-console                open the console on another machine"""
-
-
 def _refusal(options: Options) -> str:
-    if not sys.stdout.isatty() or not sys.stdin.isatty():
-        return NO_TERMINAL
-    if problem := unusable_domain() or too_few_files() or too_little_address_space():
+    if problem := terminal_problem() or unusable_domain() or too_few_files() or too_little_address_space():
         return problem
     return "" if options.attach else too_small_files()
 

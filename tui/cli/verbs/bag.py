@@ -90,10 +90,14 @@ def parser() -> argparse.ArgumentParser:
 def _open(given: argparse.Namespace) -> int:
     from bot_console.tui.bag_app import BagApp
     from bot_console.tui.cli.appearance import appearance_of
+    from bot_console.tui.cli.terminal_check import terminal_problem
     from bot_console.tui.console.bags.contents import Contents
     from bot_console.tui.console.bags.opened_bag import OpenedBag
     from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
 
+    if problem := terminal_problem("`bag open` needs a terminal; without one, `bag info` and `bag play` read the bag"):
+        print(problem, file=sys.stderr)
+        return 1
     bag = Bag(given.bag)
     play.report_repaired(bag)
     print(f"Reading {bag.metadata.count} messages ...", file=sys.stderr)
