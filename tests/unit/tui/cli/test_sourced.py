@@ -70,7 +70,7 @@ def test_files_of_another_colcon_are_kept_and_nothing_is_written_without_package
 
 
 def test_failed_build_or_another_verb_writes_nothing(folder: Path) -> None:
-    assert run(["list"]) == 0
+    assert run(["list"]) == 1
     (folder / "src" / "mine" / "setup.py").write_text("setup(\n")
     discover.use(discover.Workspace([folder]))
     assert run(["build"]) == 1
