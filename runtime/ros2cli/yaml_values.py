@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import contextlib
-from collections.abc import Generator
+from collections.abc import Callable, Generator
 from typing import IO, Any, cast
 
 MAX_BITS = 14_000
@@ -36,6 +36,22 @@ def report_yaml_errors() -> Generator[None]:
     except RecursionError:
         why = "it is nested too deeply"
     raise RuntimeError(f"The passed value is not valid YAML: {why}")
+
+
+def fill_message(message: Any, values: Any, **options: bool) -> list[Callable[[Any], None]]:
+    """Set the fields of a message, as `set_message_fields` does, and check that it can be sent.
+
+    Raises any exception about a value.
+    """
+    from rclpy.serialization import serialize_message
+    from rosidl_runtime_py import set_message_fields
+
+    stamps = set_message_fields(message, values, **options)
+    try:
+        serialize_message(message)  # a number out of range, or a list of the wrong length, shows only now
+    except TypeError as error:
+        raise TypeError(str(error)) from None  # `action` prints its repr
+    return stamps or []
 
 
 def _refuse_endless(value: object, seen: set[int]) -> None:

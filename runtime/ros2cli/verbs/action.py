@@ -31,8 +31,8 @@ from ros2cli.direct_node import (
 )
 from ros2cli.names_and_types import add_count_argument, print_names, print_types
 from ros2cli.type_discovery import class_of_typed_name
-from ros2cli.yaml_values import read_values
-from rosidl_runtime_py import message_to_yaml, set_message_fields
+from ros2cli.yaml_values import fill_message, read_values
+from rosidl_runtime_py import message_to_yaml
 from rosidl_runtime_py.utilities import get_action
 
 if TYPE_CHECKING:
@@ -122,7 +122,7 @@ def _send_goal(arguments: argparse.Namespace) -> Result:
     values = read_values(sys.stdin if arguments.stdin else arguments.goal)
     goal = kind.Goal()
     try:
-        set_message_fields(goal, values)
+        fill_message(goal, values)
     except Exception as error:  # a field may raise any exception about a value; upstream also catches all
         return f"Failed to populate message fields: {error!r}"
     arguments.no_daemon = True

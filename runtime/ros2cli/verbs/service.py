@@ -25,8 +25,7 @@ from ros2cli.names_and_types import (
 from ros2cli.type_discovery import class_of_typed_name, full_type_name
 from ros2cli.verbs import service_echo
 from ros2cli.verbs.topic_pub import POSITIVE_FLOAT
-from ros2cli.yaml_values import read_values
-from rosidl_runtime_py import set_message_fields
+from ros2cli.yaml_values import fill_message, read_values
 
 _hidden_as_well = partial(repeat_hidden_argument, "services")
 
@@ -134,7 +133,7 @@ def _requests(node: Node, kind: Any, values: Any, arguments: argparse.Namespace)
     client = node.create_client(kind, arguments.service_name)
     request = kind.Request()
     try:
-        set_message_fields(request, values)
+        fill_message(request, values)
     except Exception as error:  # a field may raise any exception about a value; upstream also catches all
         return f"Failed to populate field: {error}"
     if not client.service_is_ready():

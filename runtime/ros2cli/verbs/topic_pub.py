@@ -18,8 +18,7 @@ from ros2cli.command import Result
 from ros2cli.direct_node import DirectNode, add_strategy_arguments, spin_until
 from ros2cli.qos_arguments import add_qos_arguments, profile
 from ros2cli.type_discovery import class_of_typed_name
-from ros2cli.yaml_values import read_values
-from rosidl_runtime_py import set_message_fields
+from ros2cli.yaml_values import fill_message, read_values
 from rosidl_runtime_py.utilities import get_message
 
 
@@ -210,7 +209,7 @@ def _fill(kind: Any, values: Any) -> _Filled:
     """Return a message with the values, and functions that set its time stamps just before it is sent."""
     message = kind()
     try:
-        stamps = set_message_fields(message, values, expand_header_auto=True, expand_time_now=True)
+        stamps = fill_message(message, values, expand_header_auto=True, expand_time_now=True)
     except Exception as error:  # a field may raise any exception about a value; upstream also catches all
         raise _RefusedError(f"Failed to populate field: {error}") from None
-    return message, stamps or ()
+    return message, stamps

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import pytest
+
 SERVER = """
 from example_interfaces.srv import AddTwoInts
 from std_srvs.srv import SetBool
@@ -145,3 +147,21 @@ def test_call_accepts_type_without_srv_and_requires_a_map(ros) -> None:
         "Failed to populate field: Value 'hello' is expected to be a dictionary but is a str\n"
     )
     assert ros.ask("service", "call", "/x", "std_msgs/msg/String").stderr == "The passed type is not a service\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "reason"),
+    [
+        (("topic", "pub", "-w0", "/x", "std_msgs/msg/UInt8", "{data: 256}"), "an integer in [0, 255], not int (256)"),
+        (("service", "call", "/x", "rcl_interfaces/srv/ListParameters", "{depth: -1}"), "not int (-1)"),
+        (
+            ("action", "send_goal", "/x", "example_interfaces/action/Fibonacci", "{order: 3000000000}"),
+            "not int (3000000000)",
+        ),
+        (("topic", "pub", "-w0", "/x", "sensor_msgs/msg/Imu", "{orientation_covariance: [1.0]}"), "exactly 9, not"),
+    ],
+)
+def test_value_that_a_field_cannot_hold_is_refused_in_one_line(ros, words: tuple[str, ...], reason: str) -> None:
+    refused = ros.ask(*words)
+    assert (refused.exit, refused.stderr.count("\n")) == (1, 1)
+    assert refused.stderr.startswith("Failed to populate ") and reason in refused.stderr
