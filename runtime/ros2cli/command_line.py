@@ -9,12 +9,15 @@ import signal
 import sys
 from collections.abc import Mapping, Sequence
 from functools import partial
-from pathlib import Path
+from typing import TYPE_CHECKING
 
 from bot_console.runtime.programs.exit_messages import Interrupted, ended_code, place_fault
 from bot_console.runtime.rosidl.texts import use_prefixes
 from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
+
+if TYPE_CHECKING:
+    from pathlib import Path
 
 COMMANDS: Mapping[str, tuple[str, str]] = {
     "action": ("ros2cli.verbs.action", "Various action related sub-commands"),
