@@ -12,7 +12,6 @@ from functools import partial
 from typing import TYPE_CHECKING
 
 from bot_console.runtime.programs.exit_messages import Interrupted, ended_code, place_fault
-from bot_console.runtime.rosidl.texts import use_prefixes
 from ros2cli.advice import advise, usage
 from ros2cli.command import Command, Result, Verb
 
@@ -63,6 +62,8 @@ def main(argv: Sequence[str] | None = None, prefixes: Sequence[Path] = ()) -> in
     With an `rclpy` that is not ours, `prefixes` are those of its packages.
     """
     if prefixes:
+        from bot_console.runtime.rosidl.texts import use_prefixes  # reads files, which most verbs do not
+
         use_prefixes(prefixes)
     words = list(sys.argv[1:] if argv is None else argv)
     try:
