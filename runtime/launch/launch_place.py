@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import traceback
 from typing import TYPE_CHECKING, NamedTuple
 
 if TYPE_CHECKING:
@@ -38,3 +39,24 @@ def report_visited(error: BaseException, entity: LaunchDescriptionEntity) -> Non
         report_place(error, file, int(line), entity)
     else:
         report_place(error, origin, entity=entity)
+
+
+def place_of(error: BaseException) -> str:
+    """Return `FILE:LINE`, or `FILE`, of the innermost place on an exception and its causes; empty if none is known."""
+    cause: BaseException | None = error
+    found = ""
+    while cause is not None:
+        place: LaunchPlace | None = getattr(cause, ATTRIBUTE, None)
+        if place is not None and place.file:
+            line = _line_in(place.file, cause) or place.line
+            found = f"{place.file}:{line}" if line else place.file
+        cause = cause.__cause__
+    return found
+
+
+def _line_in(file: str, error: BaseException) -> int | None:
+    """Return the line of a Python launch file at which an exception was raised; None if it was raised elsewhere."""
+    if isinstance(error, SyntaxError) and error.filename == file:
+        return error.lineno
+    frames = traceback.walk_tb(error.__traceback__)
+    return next((line for frame, line in reversed(list(frames)) if frame.f_code.co_filename == file), None)

@@ -14,6 +14,7 @@ from types import FrameType
 from bot_console.runtime.workspace.available_names import launch_file_names, package_names
 from launch.actions import IncludeLaunchDescription
 from launch.launch_description_sources import AnyLaunchDescriptionSource
+from launch.launch_place import place_of
 from ros2cli.advice import advise, launch_files
 from ros2cli.command import Command, Result
 from ros2cli.launch_file import LaunchFileError, named_launch_file, package_errors_converted, parse_launch_arguments
@@ -164,7 +165,15 @@ def launch(
         signal.signal(signal.SIGINT, _ignore_late_interrupt)
         # Python removes its own handlers before the process has ended.
         atexit.register(signal.signal, signal.SIGINT, signal.SIG_IGN)
-    return service.run()
+    code = service.run()
+    if service.failure is not None:
+        advise(partial(_failed_at, service.failure))
+    return code
+
+
+def _failed_at(failure: Exception) -> str:
+    place = place_of(failure)
+    return place and f"the launch failed at {place}"
 
 
 def _ignore_late_interrupt(number: int, frame: FrameType | None) -> None:

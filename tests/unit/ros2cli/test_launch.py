@@ -5,6 +5,7 @@ from __future__ import annotations
 import errno
 import io
 import os
+import re
 import signal
 from collections.abc import Callable, Iterator
 from functools import partial
@@ -278,6 +279,25 @@ def test_invalid_launch_files_are_reported_without_traceback(
     assert found == code
     assert message in out + err
     assert "Traceback" not in out + err
+
+
+FAILING = [
+    ("bad.launch.xml", '<launch>\n  <log message="$(var nope)"/>\n</launch>', 2),
+    ("bad.launch.xml", "<launch>\n\n  <timer/>\n</launch>", 3),
+    ("bad.launch.yaml", "launch:\n- log: {message: hi}\n- log: {massage: hi}\n", 3),
+    ("bad.launch.py", "def helper():\n    nope\n\ndef generate_launch_description():\n    helper()\n", 2),
+    ("bad.launch.py", "import os\ndef f(:\n", 2),
+]
+
+
+@pytest.mark.parametrize(("name", "text", "line"), FAILING)
+def test_person_sees_where_a_launch_failed(
+    capsys: pytest.CaptureFixture[str], folder: Path, monkeypatch: pytest.MonkeyPatch, name: str, text: str, line: int
+) -> None:
+    (folder / name).write_text(text)
+    assert "failed at" not in run_ros2_launch(capsys, name)[2]
+    monkeypatch.setenv(SHOW, "1")
+    assert re.search(rf"^the launch failed at \S*{re.escape(name)}:{line}$", run_ros2_launch(capsys, name)[2], re.M)
 
 
 def test_show_all_output_option_shows_quiet_processes(
