@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import importlib
 from collections.abc import Callable
 
 import rclpy
@@ -12,6 +11,7 @@ from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
 from bot_console.tui.cli.doctor.spinning import spin_for
 from bot_console.tui.console.graph.pairs import hash_of, unheard
 from bot_console.tui.console.own_context import WITHOUT_LOG_FILE
+from bot_console.tui.console.topics.interfaces import message_named
 from rclpy.node import Node
 
 DISCOVERY_S = 1.5
@@ -94,9 +94,8 @@ def type_findings(node: Node, can_learn: Callable[[str], bool] = lambda type_nam
 
 def own_hash(type_name: str) -> str | None:
     """The hash of a type as defined here; None if the type is unknown, empty if no hash can be computed."""
-    package, _, rest = type_name.partition("/")
     try:
-        kind = getattr(importlib.import_module(f"{package}.msg"), rest.rpartition("/")[2])
+        kind = message_named(type_name)
     except (ImportError, AttributeError):
         return None
     try:

@@ -45,12 +45,12 @@ def _used_types(kind: Any, found: dict[str, Any]) -> Iterator[tuple[str, Any]]:
     for text in kind.get_fields_and_field_types().values():
         name = _element_type(text)
         if "/" in name and name not in found:
-            found[name] = _class(name, kind)
+            found[name] = field_class(name, kind)
             yield name, found[name]
             yield from _used_types(found[name], found)
 
 
-def _class(name: str, user: Any) -> Any:
+def field_class(name: str, user: Any) -> Any:
     """The class of a field's type, found in the module of the containing class if both belong to an action."""
     package, _, message = name.partition("/")
     beside = getattr(importlib.import_module(user.__module__), message, None)

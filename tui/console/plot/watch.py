@@ -12,7 +12,7 @@ from typing import Any
 from bot_console.tui.console.answer import Answer
 from bot_console.tui.console.model import GraphInfo, Kind, ParameterTree, Value
 from bot_console.tui.console.plot.arrays import NotPlottable
-from bot_console.tui.console.plot.paths import example, message_class, number_paths
+from bot_console.tui.console.plot.paths import example, number_paths, plottable_class
 from bot_console.tui.console.plot.port import Samples
 from bot_console.tui.console.plot.series import Series, parse_path, reader
 from bot_console.tui.console.topics.meters import Meter
@@ -111,7 +111,7 @@ class PlotWatch:
             raise NotPlottable(f"name a field of {topic} as well, for instance {topic}/{example(types[0])}")
         steps, made = parse_path(rest)
         read = reader(steps, made)
-        kind = message_class(types[0])
+        kind = plottable_class(types[0])
         if "[" not in rest:
             read(kind())
         watched = self._watched[path] = _WatchedSeries()
@@ -130,7 +130,7 @@ class PlotWatch:
             if rate is not None:
                 watched.series.add(self.now(), rate)
 
-        watched.source = _Source(topic, message_class(types[0]), meter.take, raw=True)
+        watched.source = _Source(topic, plottable_class(types[0]), meter.take, raw=True)
         watched.timer = self._node.create_timer(RATE_POLL_S, poll)
         self._watched[path] = watched
         self.follow(graph)

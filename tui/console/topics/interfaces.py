@@ -19,10 +19,28 @@ QUATERNION = "geometry_msgs/Quaternion"
 HEADER = "std_msgs/Header"
 
 
+def message_named(type_name: str) -> Any:
+    """The class of a message, also of an action's feedback or a service's event (`std_srvs/srv/Trigger_Event`).
+
+    Raises `ImportError` or `AttributeError` if it is not installed; also `ValueError` or `TypeError` if the name is
+    invalid.
+    """
+    package, _, rest = type_name.partition("/")
+    folder, _, name = rest.rpartition("/")
+    owner, _, part = name.rpartition("_")
+    if (folder, part) == ("action", "FeedbackMessage"):
+        return getattr(importlib.import_module(f"{package}.action"), owner).Impl.FeedbackMessage
+    if (folder, part) == ("srv", "Event"):
+        return getattr(importlib.import_module(f"{package}.srv"), owner).Event
+    return getattr(importlib.import_module(f"{package}.msg"), name)
+
+
 def interface(payload: Payload, type_name: str) -> Any:
     """The class of a type such as `std_srvs/srv/SetBool`; raises `ValueError` if it is not installed."""
     package, _, rest = type_name.partition("/")
     try:
+        if payload is Payload.MESSAGE:
+            return message_named(type_name)
         return getattr(importlib.import_module(f"{package}.{FOLDERS[payload]}"), rest.rsplit("/", 1)[-1])
     except (ImportError, AttributeError):
         raise ValueError(f"the type {type_name} is not available here; source the workspace that provides it") from None

@@ -16,9 +16,11 @@ from bot_console.tui.cli.doctor.terminal import characters_finding, colours_find
 from bot_console.tui.cli.doctor.terminal import terminal_link_finding as terminal_link
 from bot_console.tui.cli.shell_python import ShellPython
 from domains import unused_domain
+from example_interfaces.action import Fibonacci
 from fakes.ros_installation import make_standin
 from geometry_msgs.msg import Twist
 from processes.command_line import run_cli
+from rclpy.action import ActionServer
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -128,6 +130,12 @@ def test_mismatched_pairs_and_unknown_types_are_reported(node) -> None:
     assert found.level is Level.WARN and found.text.startswith("/words: /base receives nothing from /base")
     assert found.hint == "change the QoS of one of them"
     assert [each.level for each in type_findings(node)] == [Level.OK]
+
+
+def test_feedback_of_an_action_is_of_a_known_type(node) -> None:
+    server = ActionServer(node, Fibonacci, "/count", lambda goal: Fibonacci.Result())
+    assert [each.text for each in type_findings(node)] == ["all are known here"]
+    server.destroy()
 
 
 def test_types_that_nodes_describe_are_learned_and_others_unknown(node, monkeypatch) -> None:

@@ -92,6 +92,11 @@ def test_suggested_paths_are_fields_then_elements_then_array_functions():
     assert number_paths("no_such/msg/Thing") == ()
 
 
+def test_feedback_of_an_action_has_paths_into_its_own_fields() -> None:
+    paths = number_paths("example_interfaces/action/Fibonacci_FeedbackMessage")
+    assert "feedback.sequence[0]" in paths and "goal_id.uuid[0]" in paths
+
+
 def test_the_colon_of_a_slice_does_not_mark_a_parameter() -> None:
     made: list[str] = []
     node: Any = SimpleNamespace(create_subscription=lambda kind, topic, take, qos, raw: made.append(topic))
