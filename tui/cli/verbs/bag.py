@@ -95,13 +95,13 @@ def _open(given: argparse.Namespace) -> int:
     from bot_console.tui.console.bags.opened_bag import OpenedBag
     from bot_console.tui.console.bags.playing.bag_playback import BagPlayback
 
-    if problem := terminal_problem("`bag open` needs a terminal; without one, `bag info` and `bag play` read the bag"):
-        print(problem, file=sys.stderr)
-        return 1
     bag = Bag(given.bag)
     play.report_repaired(bag)
     print(f"Reading {bag.metadata.count} messages ...", file=sys.stderr)
     contents = Contents(bag)
+    if problem := terminal_problem("`bag open` needs a terminal; without one, `bag info` and `bag play` read the bag"):
+        print(problem, file=sys.stderr)
+        return 1
     console = OpenedBag(contents, given.bag.resolve().name)
     options = parse([])
     notes = [f"{each} is not shown: the bag is too large" for each in contents.left_out]
