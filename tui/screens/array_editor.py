@@ -4,18 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from functools import partial
-from typing import ClassVar, TypeAlias
+from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.console.model import Kind, Value
+from bot_console.tui.console.model import Value
 from bot_console.tui.console.query import Query, parse
-from bot_console.tui.format import element_text, parse_element
+from bot_console.tui.format import element_text
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.text.sanitize import counted, sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Searchable
 from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt
-from bot_console.tui.widgets.prompt.question import Elements, Line
+from bot_console.tui.widgets.prompt.question import Element, Elements, Line
 from bot_console.tui.widgets.row_list import RowList
 from bot_console.tui.widgets.static_text import StaticText
 from rich.segment import Segment
@@ -23,7 +23,6 @@ from rich.text import Text
 from textual.app import ComposeResult
 from textual.binding import BindingType
 
-Element: TypeAlias = "bool | int | float | str | bytes"
 HINT = "s Set · Enter Edit · i Insert · a Add · d Delete · J K Move · u Undo"
 """The keys, most important first, as a narrow terminal cuts the end."""
 
@@ -101,11 +100,11 @@ class ElementsScreen(QuestionScreen[Value], Searchable):  # pyright: ignore[repo
     def _ask(self, label: str, text: str, then: Callable[[Element], object]) -> None:
         def answered(typed: str) -> None:
             self._change()
-            then(parse_element(typed, self._asked.kind))
+            then(self._asked.parse(typed))
             self._list.rows_changed()
             self._report()
 
-        self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_element_problem, self._asked.kind)))
+        self.query_one(Prompt).ask(Line(label, answered, text=text, check=partial(_problem, self._asked.parse)))
 
     def ask_words(self, line: Line) -> None:
         """Ask for search words below the list."""
@@ -189,9 +188,9 @@ class ElementsScreen(QuestionScreen[Value], Searchable):  # pyright: ignore[repo
         self._leaving = True
 
 
-def _element_problem(kind: Kind, text: str) -> str:
+def _problem(parse: Callable[[str], Element], text: str) -> str:
     try:
-        parse_element(text, kind)
+        parse(text)
     except ValueError as error:
         return str(error)
     return ""

@@ -52,6 +52,15 @@ def test_array_is_edited_element_by_element_and_set_once() -> None:
     assert edit_array(Kind.DOUBLE_ARRAY, (1.0, 2.0, 3.0), play) == [(9.0, 3.0, 7.5)]
 
 
+def test_an_element_may_be_an_expression_as_the_value_of_a_number() -> None:
+    async def play(session: Session) -> None:
+        await session.press("enter")
+        await session.type("9/4")
+        await session.press("enter", "s")
+
+    assert edit_array(Kind.DOUBLE_ARRAY, (1.0, 2.0), play) == [(2.25, 2.0)]
+
+
 @pytest.mark.slow
 def test_a_text_with_a_comma_stays_one_element() -> None:
     async def play(session: Session) -> None:

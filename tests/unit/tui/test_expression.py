@@ -6,7 +6,7 @@ import math
 
 import pytest
 from bot_console.tui.console.model import Kind, ParameterInfo, Range, Value
-from bot_console.tui.panes.parameters.editing import at_share, moved_by_steps, typed_value
+from bot_console.tui.panes.parameters.editing import at_share, moved_by_steps, typed_element, typed_value
 from bot_console.tui.text.expression.numbers import evaluate
 
 
@@ -131,6 +131,29 @@ def test_integers_stay_whole() -> None:
         typed_value("1/3", of(Kind.INTEGER, "", value=1))
     with pytest.raises(ValueError, match="64 bits"):
         typed_value("2**63*1", of(Kind.INTEGER, "", value=1))
+
+
+@pytest.mark.parametrize(
+    ("kind", "unit", "text", "value"),
+    [
+        (Kind.DOUBLE_ARRAY, "m", "30 cm", 0.3),
+        (Kind.INTEGER_ARRAY, "", "360/4", 90),
+        (Kind.BYTE_ARRAY, "", "0xff", b"\xff"),
+        (Kind.STRING_ARRAY, "", "1+1", "1+1"),
+        (Kind.BOOL_ARRAY, "", "yes", True),
+    ],
+)
+def test_element_of_numbers_may_be_an_expression(kind: Kind, unit: str, text: str, value: Value) -> None:
+    assert typed_element(of(kind, unit), text) == value
+
+
+@pytest.mark.parametrize(
+    ("kind", "text", "problem"),
+    [(Kind.BYTE_ARRAY, "1+1", "not a byte"), (Kind.BOOL_ARRAY, "2", "neither"), (Kind.INTEGER_ARRAY, "1/2", "integer")],
+)
+def test_element_of_another_type_is_refused(kind: Kind, text: str, problem: str) -> None:
+    with pytest.raises(ValueError, match=problem):
+        typed_element(of(kind, ""), text)
 
 
 def test_steps_and_shares_stay_in_the_range() -> None:

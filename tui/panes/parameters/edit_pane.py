@@ -89,7 +89,8 @@ class EditPane(ListPane):
             now = self.edits.now(parameter)
             values = now if isinstance(now, tuple) else ()
             then, gone = partial(self.edits.set, parameter), partial(self._gone, parameter)
-            self.ask(Elements(editing.label(parameter), then, gone, values=values, kind=parameter.kind))
+            parse = partial(editing.typed_element, parameter)
+            self.ask(Elements(editing.label(parameter), then, gone, values=values, kind=parameter.kind, parse=parse))
 
     def action_edit_text(self) -> None:
         """Edit a value on one line; toggle a boolean."""

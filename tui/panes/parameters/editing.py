@@ -3,16 +3,19 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Value
 from bot_console.tui.console.model.range import free_step, rounded
-from bot_console.tui.format import parse_value, range_text
+from bot_console.tui.console.parameter_types import ARRAYS
+from bot_console.tui.format import parse_element, parse_value, range_text
 from bot_console.tui.text.expression.numbers import evaluate
 from bot_console.tui.text.expression.parse import NUMBER
 from bot_console.tui.text.sanitize import cut
 from bot_console.tui.text.typed_units import factor, split_unit
 
 NUMBERS = (Kind.INTEGER, Kind.DOUBLE)
+ARRAYS_OF_NUMBERS = (Kind.INTEGER_ARRAY, Kind.DOUBLE_ARRAY)
 INTEGER_ENDS = (-(2**63), 2**63 - 1)
 """The smallest and the largest integer that a parameter can hold."""
 
@@ -36,7 +39,20 @@ def typed_value(text: str, parameter: ParameterInfo) -> Value:
     return _calculated(text, parameter)
 
 
-def _calculated(text: str, parameter: ParameterInfo) -> Value:
+def typed_element(parameter: ParameterInfo, text: str) -> bool | int | float | str | bytes:
+    """An element of an array from a typed text; for an array of numbers, expressions are allowed as in `typed_value`.
+
+    Raises `ValueError` that says how to fix the text.
+    """
+    try:
+        return parse_element(text, parameter.kind)
+    except ValueError:
+        if parameter.kind not in ARRAYS_OF_NUMBERS or not any(character.isdigit() for character in text):
+            raise
+    return _calculated(text, replace(parameter, kind=ARRAYS[parameter.kind]))
+
+
+def _calculated(text: str, parameter: ParameterInfo) -> int | float:
     expression, unit = split_unit(text)
     scale = factor(unit, parameter.unit) if unit else 1
     value = evaluate(expression) * scale

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
-from typing import Generic, TypeVar
+from typing import Generic, TypeAlias, TypeVar
 
 from bot_console.tui.console.model import Kind, LaunchArgument, Value
 from bot_console.tui.console.topics.port import Payload, Topics
 
 A = TypeVar("A")
+Element: TypeAlias = "bool | int | float | str | bytes"
+"""An element of an array."""
 
 
 def _nothing(*_: object) -> None:
@@ -118,8 +120,10 @@ class Form(Question[dict[str, str]]):
 class Elements(Question[Value]):
     """The elements of an array, edited one by one; the answer is the whole array."""
 
-    values: Sequence[bool | int | float | str | bytes] = ()
+    values: Sequence[Element] = ()
     kind: Kind = Kind.STRING_ARRAY
+    parse: Callable[[str], Element] = str
+    """An element from a typed text; raises `ValueError` that says how to fix the text."""
 
 
 @dataclass(frozen=True, kw_only=True)
