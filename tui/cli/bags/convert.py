@@ -98,7 +98,7 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
     for entry in bag.messages(list(writer.metadata.topics)):
         writer.write(entry.topic, entry.data, entry.received, 0)
     writer.close()
-    print(sanitize(f"{writer.metadata.count} messages of {len(writer.metadata.topics)} topics in {writer.folder}"))
+    print(sanitize(f"{writer.metadata.amount} in {writer.folder}"))
 
 
 def _as_list(value: Any) -> list[Any]:
@@ -144,7 +144,7 @@ def reindex(given: argparse.Namespace) -> int:
     bag = Bag(given.bag, listed=False)
     report_repaired(bag)
     bag.metadata.save(given.bag)
-    print(sanitize(f"{bag.metadata.count} messages of {len(bag.metadata.topics)} topics in {given.bag}"))
+    print(sanitize(f"{bag.metadata.amount} in {given.bag}"))
     return 0
 
 

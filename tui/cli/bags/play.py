@@ -15,7 +15,7 @@ from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chose
 from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
-from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.sanitize import counted, sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.playing.player import Player
@@ -171,7 +171,7 @@ def _run(node: Node, work: Callable[[], None], stopped: threading.Event) -> str:
 
 
 def _report(player: Player, problem: str) -> int:
-    print(f"{player.published} messages published", file=sys.stderr)
+    print(f"{counted(player.published, 'message')} published", file=sys.stderr)
     if problem:
         print(sanitize(problem), file=sys.stderr)
     return int(bool(problem))

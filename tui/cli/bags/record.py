@@ -12,7 +12,7 @@ from bot_console.tui.cli.bags.keyboard import read_keys
 from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, record_problem, wanted_topics
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.sanitize import counted, sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recorder import Recorder
@@ -58,7 +58,7 @@ def record(given: argparse.Namespace) -> int:
         if bag is not None:
             bag.close()
     if bag is not None:
-        print(f"{bag.metadata.count} messages of {len(bag.metadata.topics)} topics in {folder}", file=sys.stderr)
+        print(f"{bag.metadata.amount} in {folder}", file=sys.stderr)
     named = (f"/{each.lstrip('/')}" for each in (*given.topics, *given.topics_positional))
     absent = {each: "nobody has published it" for each in named if each not in recorder.subscribed}
     if lacking := remarks({**absent, **recorder.unknown}, recorder.generic):
@@ -209,7 +209,7 @@ def _write_snapshot(ring: Ring, folder: Path) -> tuple[bool, str]:
         writer.close()
     except (NotSaved, OSError) as error:
         return False, str(error)
-    return True, f"{count} messages in {folder.resolve()}"
+    return True, f"{counted(count, 'message')} in {folder.resolve()}"
 
 
 def snapshot(given: argparse.Namespace) -> int:

@@ -17,7 +17,7 @@ from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Measure
 from bot_console.tui.session.reached_console import reached_console, wait_until_settled
 from bot_console.tui.settings.settings import read_settings
-from bot_console.tui.text.sanitize import sanitize
+from bot_console.tui.text.sanitize import counted, sanitize
 
 PARAMETERS_TIMEOUT_S = 15.0
 """Seconds to wait for the parameters of all nodes."""
@@ -121,8 +121,8 @@ def _compare(console: RosConsole, expected: ExpectedGraph, given: argparse.Names
         found = differences(expected, console.snapshot().graph, measured)
     for each in found:
         print(sanitize(each))
-    parts = f"{len(expected.nodes)} nodes, {len(expected.topics)} topics"
-    print(f"{len(found)} differences" if found else f"as expected: {parts}", file=sys.stderr)
+    parts = f"{counted(len(expected.nodes), 'node')}, {counted(len(expected.topics), 'topic')}"
+    print(counted(len(found), "difference") if found else f"as expected: {parts}", file=sys.stderr)
     return 1 if found else 0
 
 

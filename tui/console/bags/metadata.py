@@ -9,6 +9,7 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.files.save_file import save_file
+from bot_console.tui.text.sanitize import counted
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
 VERSION = 9
@@ -93,6 +94,11 @@ class Metadata:
     def end(self) -> int:
         """The time of the last message; 0 if there is none."""
         return max((each.end for each in self.files), default=0)
+
+    @property
+    def amount(self) -> str:
+        """The number of messages and of topics, in words."""
+        return f"{counted(self.count, 'message')} of {counted(len(self.topics), 'topic')}"
 
     @property
     def count(self) -> int:

@@ -94,7 +94,7 @@ class Recordings:
             if writer is None:
                 return Answer(False, self._sink.problem or "nothing is being recorded")
             about = writer.metadata
-            recorded = f"{about.count} messages of {len(about.topics)} topics in {writer.folder}"
+            recorded = f"{about.amount} in {writer.folder}"
             recorder = self._recorder
             lacking = remarks(recorder.unknown, recorder.generic) if recorder else ""
             return Answer(True, f"{recorded}; {lacking}" if lacking else recorded)

@@ -19,6 +19,7 @@ from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.in_background import in_background
 from bot_console.tui.files.save_file import NotSaved, typed_path
+from bot_console.tui.text.sanitize import counted
 
 TURN_S = 0.25
 """Seconds between two rounds of processing."""
@@ -82,7 +83,7 @@ class SnapshotBuffer:
             writer.close()
         except (MissingPackageError, NotSaved, OSError) as error:
             return Answer(False, f"not saved: {error}")
-        return Answer(True, f"the last {span:.0f} s, {count} messages, in {folder}")
+        return Answer(True, f"the last {span:.0f} s, {counted(count, 'message')}, in {folder}")
 
     def _serve(self) -> None:
         while not self._closing.wait(TURN_S):

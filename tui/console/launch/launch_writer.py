@@ -10,7 +10,7 @@ import json
 import os
 import shlex
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any, cast
 
@@ -153,7 +153,21 @@ def _launched_programs(system: RunningSystem) -> Iterator[Start]:
         nodes = [*each.nodes]
         if each.pid is not None and not _is_container(each.program):
             nodes += [node for node in system.processes.get(each.pid, ()) if not _is_tool(node)]
-        yield Start(each.program, tuple(dict.fromkeys(node for node in nodes if node in there)))
+        folder = each.program.folder or (
+            _folder_it_needs(each.pid, each.program) if each.pid in system.processes else ""
+        )
+        program = replace(each.program, folder=folder)
+        yield Start(program, tuple(dict.fromkeys(node for node in nodes if node in there)))
+
+
+def _folder_it_needs(pid: int | None, program: Program) -> str:
+    """The folder in which a process of this machine runs, if its command line names a file there; otherwise empty."""
+    try:
+        folder = os.readlink(f"/proc/{pid}/cwd")
+    except OSError:
+        return ""
+    words = (each for each in program.command if not os.path.isabs(each))
+    return folder if any(os.path.isfile(os.path.join(folder, each)) for each in words) else ""
 
 
 def _is_tool(node: str) -> bool:

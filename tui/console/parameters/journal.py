@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value, same
 from bot_console.tui.console.parameters.unsaved import UnsavedValues
+from bot_console.tui.text.sanitize import counted
 from bot_console.tui.text.value_text import value_text
 
 if TYPE_CHECKING:
@@ -52,7 +53,7 @@ class Step:
             return f"{move.node} {', '.join(values)}"
         count = sum(len(each.after) for each in self.moves)
         name = f"profile {self.profiles[1]}, " if self.profiles else ""
-        return f"{name}{count} values of {len(self.moves)} nodes"
+        return f"{name}{counted(count, 'value')} of {counted(len(self.moves), 'node')}"
 
     def is_followed_by(self, other: Step) -> bool:
         """Whether another step changes the same parameters and starts with the values with which this one ends."""

@@ -5,6 +5,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
+from bot_console.tui.text.sanitize import counted
+
 
 @dataclass(frozen=True, slots=True)
 class PlaybackState:
@@ -28,7 +30,7 @@ class PlaybackState:
             return self.problem
         at, whole = (self.position - self.begin) / 1e9, (self.end - self.begin) / 1e9
         words = ["⏸ paused " if self.paused else "▶ playing", f"{at:.1f} / {whole:.1f} s", f"×{self.rate:.3g}"]
-        return "  ".join([*words, *(["loop"] if self.loop else []), f"{self.published} messages"])
+        return "  ".join([*words, *(["loop"] if self.loop else []), counted(self.published, "message")])
 
 
 class Playback(Protocol):

@@ -7,6 +7,7 @@ from typing import Any
 
 import pytest
 from bot_console.tui.cli.verbs import bag as verb
+from bot_console.tui.console.bags.metadata import Metadata, Topic
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.bags.writer import BagWriter, WritingOptions
 from rclpy.serialization import deserialize_message, serialize_message
@@ -27,6 +28,12 @@ def write_bag(folder: Path, **how: Any) -> Path:
         writer.write("/number", serialize_message(Int32(data=number)), (number + 1) * SECOND, 0)
     writer.close()
     return folder
+
+
+def test_amount_of_a_bag_is_in_words() -> None:
+    one = Metadata([], {"/word": Topic("/word", "std_msgs/msg/String", count=1)})
+    assert one.amount == "1 message of 1 topic"
+    assert Metadata([]).amount == "0 messages of 0 topics"
 
 
 def numbers(bag: Bag) -> list[int]:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import os
+import subprocess
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 
@@ -137,6 +139,22 @@ def test_unknown_values_are_marked(tmp_path: Path) -> None:
     assert "# /known: UNKNOWN: its parameters" in text and 'ros_arguments=["-p", "a:=1"]' in text
     assert "# /known: a lifecycle node, which starts unconfigured" in text
     assert "_hidden" not in text and "launch_ros_7" not in text
+
+
+def test_launched_program_that_is_named_by_a_relative_path_gets_the_folder_of_its_process(tmp_path: Path) -> None:
+    (tmp_path / "talker.py").touch()
+    wait = "import time; time.sleep(600)"
+    with subprocess.Popen([sys.executable, "-c", wait, "talker.py"], cwd=tmp_path) as process:
+        try:
+            until(lambda: os.path.exists(f"/proc/{process.pid}/cwd"), "the process")
+            found = []
+            for command in (("python3", "talker.py"), ("python3", "other.py")):
+                info = ProcessInfo("a", "a", ProcessState.RUNNING, process.pid, program=Program(command))
+                system = RunningSystem(GraphInfo(), LaunchInfo(processes=(info,)), processes={process.pid: ()})
+                found += [each.program.folder for each in launch_writer.found_starts(system)[0]]
+        finally:
+            process.kill()
+    assert found == [str(tmp_path), ""]
 
 
 def test_nodes_of_a_program_are_identified_by_its_process_except_those_of_a_container(tmp_path: Path) -> None:
