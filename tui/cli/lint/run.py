@@ -22,6 +22,7 @@ from bot_console.tui.cli.lint.parameter_declarations import lint as lint_python
 from bot_console.tui.cli.lint.parameter_file import dead_values, looks_like_parameter_file, rejections
 from bot_console.tui.console.parameters.descriptor_faults import faults
 from bot_console.tui.session.embedded.reaching import reach_system
+from bot_console.tui.text.sanitize import counted
 
 INDEX = "course.md"
 """The file that makes a folder a course."""
@@ -78,8 +79,9 @@ def _course(folder: Path) -> int:
     except CourseError as error:
         print(error)
         return 1
-    chapters, steps, rows = len(course.chapters), len(course.steps()), len(course.rows())
-    print(f"nothing found in {chapters} chapters, {steps} steps and {rows} rows of grading", file=sys.stderr)
+    chapters, steps = counted(len(course.chapters), "chapter"), counted(len(course.steps()), "step")
+    rows = counted(len(course.rows()), "row")
+    print(f"nothing found in {chapters}, {steps} and {rows} of grading", file=sys.stderr)
     return 0
 
 

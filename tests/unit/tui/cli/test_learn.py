@@ -22,6 +22,7 @@ def test_list_shows_steps_and_what_the_next_one_still_needs(tmp_path: Path, caps
 def test_new_course_lints_and_lists(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
     assert run(["--new", str(tmp_path / "c")]) == 0
     assert lint([str(tmp_path / "c")]) == 0
+    assert "nothing found in 1 chapter, 1 step and 1 row of grading" in capsys.readouterr().err
     assert run([str(tmp_path / "c"), "--list", "--workspace", str(tmp_path)]) == 0
     assert "0 of 1 done" in capsys.readouterr().out
 
