@@ -105,6 +105,18 @@ def test_unsupported_image_explains_why() -> None:
     run(system(), play)
 
 
+def test_long_explanation_is_whole_at_80_columns() -> None:
+    why = "80 x 60 mono8 needs 80 bytes per row, 4800 in total; there are 10 and 4800"
+
+    async def play(session: Session) -> None:
+        session.console.sensors.shown = Picture("/front/image", count=1, problem=why)
+        await session.press("I")
+        await pass_time(session, 1.0)
+        assert " ".join(session.text().replace("│", " ").split()).count(why) == 1
+
+    run(system(), play, (80, 24))
+
+
 def test_pane_explains_what_to_do_until_an_image_arrives() -> None:
     async def play(session: Session) -> None:
         await session.press("I")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import re
 from dataclasses import replace
 
@@ -97,6 +98,16 @@ def test_turtle_field_is_shown_at_once_without_robots() -> None:
         await session.press("5")
         assert "/turtlesim: turtle1 1.0, 1.0" in session.text()
         session.console.change(world=WorldInfo())
+        await session.settle()
+        assert "there is no map and no pose yet" in session.text()
+
+    run(empty(), play)
+
+
+def test_scan_without_map_and_pose_leaves_the_pane_with_its_explanation() -> None:
+    async def play(session: Session) -> None:
+        await session.press("5")
+        session.console.change(world=WorldInfo(nearest=3.0, speed=math.inf, robot="/lidar"))
         await session.settle()
         assert "there is no map and no pose yet" in session.text()
 

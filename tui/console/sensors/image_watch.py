@@ -104,5 +104,7 @@ def _decode_image(data: bytes) -> Any:
             if image.width * image.height > MAX_IMAGE_BYTES:
                 raise ValueError(f"{image.width} x {image.height} pixels are too many to be shown")
             return np.asarray(image.convert("RGB"))
+    except library.UnidentifiedImageError:
+        raise ValueError("this image cannot be decoded: it is in no known format") from None
     except (OSError, SyntaxError, EOFError, KeyError, library.DecompressionBombError) as error:
         raise ValueError(f"this image cannot be decoded: {error}") from None

@@ -35,6 +35,10 @@ class ImageView(Picture, can_focus=True):
         self.focus()
 
 
+MAX_HEAD_ROWS = 4
+"""Maximum rows of the line above the image, which also says why there is none."""
+
+
 class ImagesPane(Pane):
     """Images of one topic."""
 
@@ -149,7 +153,9 @@ class ImagesPane(Pane):
         else:
             parts = [topic, f"{seen.width}x{seen.height} {seen.encoding}", *([seen.message] if seen.message else [])]
             text = "  ".join([*parts, self._state()])
-        self.query_one("#images-head", StaticText).show_or_hide(text)
+        head = self.query_one("#images-head", StaticText)
+        head.display = bool(text)
+        head.show_whole(text, MAX_HEAD_ROWS)
 
     def _state(self) -> str:
         newer = self.console.sensors.picture().count - self._seen.count

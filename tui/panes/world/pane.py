@@ -103,7 +103,7 @@ class WorldMap(Picture):
             self._field_drawing = self._field_drawing or FieldDrawing()
             self.set_lines(self._field_drawing.rows(self.field, width, height))
             return
-        if replace(self._world, robot="", robots=()) == WorldInfo():
+        if not (self._world.map or self._world.pose or self._world.trail):
             self._reported = None
             self.set_lines(())
             return

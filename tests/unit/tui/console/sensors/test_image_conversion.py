@@ -109,5 +109,5 @@ def test_compressed_images_need_pillow_and_faults_in_them_are_reported() -> None
         10,
         20,
     ]
-    with pytest.raises(ValueError, match="cannot be decoded"):
+    with pytest.raises(ValueError, match="cannot be decoded: it is in no known format"):
         _convert(CompressedImage(format="jpeg", data=b"\xff\xd8nonsense"), 4, 4)
