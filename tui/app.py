@@ -21,7 +21,8 @@ from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop
 from bot_console.tui.settings.appearance import Appearance
 from bot_console.tui.terminal.exception_guard import GuardedApp
-from bot_console.tui.text.sanitize import brief, counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import brief, sanitize
 from bot_console.tui.theme import THEMES
 from bot_console.tui.widgets.key_bar import KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea, PanePlaceholder

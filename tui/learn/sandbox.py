@@ -26,7 +26,7 @@ SKIPPED = shutil.ignore_patterns(".git", "build", "install", "log", "__pycache__
 
 
 class NoSandboxError(RuntimeError):
-    """The kernel does not let users' programs have separate namespaces."""
+    """The kernel does not let users' programs have separate namespaces, or the workspace cannot be copied."""
 
 
 @dataclass(frozen=True)
@@ -84,7 +84,7 @@ class Sandbox:
 def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandbox:
     """Copy a workspace into an empty folder.
 
-    If programs cannot be isolated, raises `NoSandboxError` unless the network is allowed.
+    Raises `NoSandboxError` if it cannot be copied, or if programs cannot be isolated and the network is not allowed.
     """
     prefix: Sequence[str] = NAMESPACES
     if not can_isolate():
@@ -94,10 +94,20 @@ def make_sandbox(workspace: Path, folder: Path, *, allow_network: bool) -> Sandb
                 "reach the network: grade in a container without network access, or accept this, with --allow-network"
             )
         prefix = ()
-    shutil.copytree(workspace, folder / "ws", ignore=SKIPPED, symlinks=True)
+    try:
+        shutil.copytree(workspace, folder / "ws", ignore=_left_out, symlinks=True)
+    except OSError as error:  # `shutil.Error` lists a source, a destination and a reason per file
+        path, why = error.args[0][0][::2] if isinstance(error, shutil.Error) else (workspace, error)
+        raise NoSandboxError(f"not graded, as {path} cannot be copied: {why}") from None
     for each in ("home", "s"):
         (folder / each).mkdir(mode=0o700)
     return Sandbox(folder, prefix)
+
+
+def _left_out(folder: str, names: list[str]) -> set[str]:
+    """The names in a folder that are not copied: what tools have built, and pipes, sockets and devices."""
+    special = {each.name for each in os.scandir(folder) if not (each.is_symlink() or each.is_dir() or each.is_file())}
+    return {*SKIPPED(folder, names), *special}
 
 
 @cache

@@ -16,7 +16,8 @@ from bot_console.tui.files.state_store import MemoryStore, StateStore
 from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.screens.question_screens import screen_for
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.tuning.specification import TuningSpecification
 from bot_console.tui.tuning.tunable import Setting
 from bot_console.tui.widgets.lazy_parts import LazyParts

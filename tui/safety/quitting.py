@@ -5,7 +5,7 @@ from __future__ import annotations
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.console.protocol import Console
 from bot_console.tui.screens.question_screens import screen_for
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.prompt.question import Confirmation
 from textual.app import App

@@ -6,7 +6,8 @@ from collections.abc import Callable, Sequence
 
 from bot_console.tui.console.model import ConsoleSnapshot, Endpoint, ProcessInfo
 from bot_console.tui.console.robot.robot_model import DriveInfo, RobotStop
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.prompt.question import Confirmation
 
 HOLDS_AGAIN = "Stops that people requested hold it again as soon as it is back; ! and bot-console release end them."

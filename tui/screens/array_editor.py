@@ -11,7 +11,8 @@ from bot_console.tui.console.model import Value
 from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import element_text
 from bot_console.tui.screens.question import QuestionScreen
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.prompt.filtered import Searchable
 from bot_console.tui.widgets.prompt.line import Prompt, find_open_prompt

@@ -9,7 +9,8 @@ from typing import ClassVar
 import numpy as np
 from bot_console.tui import keymap
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
-from bot_console.tui.text.sanitize import counted, cut
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import cut
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.port import Tuning

@@ -4,18 +4,13 @@ from __future__ import annotations
 
 import unicodedata
 
+from bot_console.tui.text.counted import counted
 from rich.cells import cell_len, set_cell_size
 
 WIDE_MARK = "\ufe0f"
 """Requests the coloured form of a symbol; terminals disagree on whether that is one cell wide or two."""
 MAX_LINES, MAX_CHARACTERS = 6, 400
 """Maximum lines and characters of a notification; the log and the panes show the whole text."""
-
-
-def counted(number: int, word: str) -> str:
-    """A number and a noun, in the plural if needed."""
-    ending = "es" if word.endswith("s") else "s"
-    return f"{number} {word}{'' if number == 1 else ending}"
 
 
 def sanitize(text: str) -> str:

@@ -8,7 +8,8 @@ from bot_console.tui.console.model import ConsoleSnapshot, LinkInfo, ProcessStat
 from bot_console.tui.console.robot.robot_model import DriveInfo
 from bot_console.tui.format import figure, profile_label
 from bot_console.tui.safety.stop_wording import stop_text
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.live_figures import LiveFigures
 from rich.style import Style
 from rich.text import Text

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import argparse
 import json
+import os
 import re
+import shutil
 import subprocess
 import sys
 from collections.abc import Iterator
@@ -224,6 +226,25 @@ def _empty(tmp_path: Path) -> Path:
 def _new(tmp_path: Path, name: str = "box") -> Path:
     (tmp_path / name).mkdir()
     return tmp_path / name
+
+
+def test_pipes_and_sockets_are_not_copied_and_a_file_that_cannot_be_is_named(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    workspace = _empty(tmp_path)
+    os.mkfifo(workspace / "pipe")
+    (workspace / "link").symlink_to("nowhere")
+    (workspace / "robot.py").touch()
+    box = make_sandbox(workspace, _new(tmp_path), allow_network=True)
+    assert sorted(os.listdir(box.workspace)) == ["link", "robot.py"]
+    for error in (shutil.Error([("/w/a.py", "/copy/a.py", "denied")]), OSError(28, "denied")):
+
+        def refuse(*_: object, error: OSError = error, **__: object) -> None:
+            raise error
+
+        monkeypatch.setattr(sandbox.shutil, "copytree", refuse)
+        with pytest.raises(NoSandboxError, match=r"not graded, as /.* cannot be copied: .*denied"):
+            make_sandbox(workspace, tmp_path / "other", allow_network=True)
 
 
 @needs_namespaces

@@ -15,7 +15,8 @@ from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chose
 from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.playing.player import Player

@@ -12,7 +12,8 @@ from bot_console.tui.cli.bags.keyboard import read_keys
 from bot_console.tui.cli.bags.record_arguments import NOT_NEEDED, record_problem, wanted_topics
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.files.save_file import NotSaved
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 
 if TYPE_CHECKING:
     from bot_console.tui.console.bags.recorder import Recorder

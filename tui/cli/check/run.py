@@ -15,7 +15,8 @@ from bot_console.tui.cli.check.stepped import StartError, read_start, run_steppe
 from bot_console.tui.cli.numbers import seconds, seed
 from bot_console.tui.session.embedded.workspaces import choose
 from bot_console.tui.session.reached_console import reached_console, wait_until_known
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 
 MAX_SCRIPT_BYTES = 1_000_000
 """Maximum size of a script."""

@@ -22,7 +22,7 @@ from bot_console.tui.cli.lint.parameter_declarations import lint as lint_python
 from bot_console.tui.cli.lint.parameter_file import dead_values, looks_like_parameter_file, rejections
 from bot_console.tui.console.parameters.descriptor_faults import faults
 from bot_console.tui.session.embedded.reaching import reach_system
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 
 INDEX = "course.md"
 """The file that makes a folder a course."""

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from typing import Any
 
 from bot_console.tui.console.model import Kind, ParameterInfo, Range
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.tuning.job import Progress, SettingResult
 from bot_console.tui.tuning.specification import TuningSpecification

@@ -11,7 +11,8 @@ from bot_console.runtime.workspace.available_names import package_names
 from bot_console.runtime.workspace.discover import workspace
 from bot_console.tui.cli.lint.packaging import obstacles
 from bot_console.tui.cli.verbs.sourced import write_setup_files
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 
 NOTHING_TO_DO = "Nothing has to be built or sourced: packages of the workspace are read from their sources."
 GOOD_FOR = "makes the ros2 command and these packages available in any folder of a shell that sources it."

@@ -17,7 +17,8 @@ from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Measure
 from bot_console.tui.session.reached_console import reached_console, wait_until_settled
 from bot_console.tui.settings.settings import read_settings
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 
 PARAMETERS_TIMEOUT_S = 15.0
 """Seconds to wait for the parameters of all nodes."""

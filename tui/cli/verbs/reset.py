@@ -13,7 +13,8 @@ from bot_console.tui.cli.verbs.stop import ask
 from bot_console.tui.console.model import ConsoleSnapshot, Value
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.session.reached_console import reached_console, wait_until_known
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.value_text import value_text
 
 T = TypeVar("T")

@@ -9,7 +9,7 @@ from typing import Any, cast
 
 import yaml
 from bot_console.tui.files.save_file import save_file
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.yaml_faults import UNREADABLE
 
 VERSION = 9

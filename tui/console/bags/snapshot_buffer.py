@@ -19,7 +19,7 @@ from bot_console.tui.console.bags.snapshot_size import SnapshotSize
 from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.in_background import in_background
 from bot_console.tui.files.save_file import NotSaved, typed_path
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 
 TURN_S = 0.25
 """Seconds between two rounds of processing."""

@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 
 from bot_console.tui.console.model import Change, ChangeSource, JournalState, Value, same
 from bot_console.tui.console.parameters.unsaved import UnsavedValues
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.value_text import value_text
 
 if TYPE_CHECKING:

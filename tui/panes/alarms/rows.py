@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from bot_console.tui.console.model import RateCheck
 from bot_console.tui.console.query import Query
 from bot_console.tui.panes.alarms.alarm import Alarm
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.figures import age_text
-from bot_console.tui.text.sanitize import counted, cut, cut_name, sanitize
+from bot_console.tui.text.sanitize import cut, cut_name, sanitize
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

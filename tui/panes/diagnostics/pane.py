@@ -15,8 +15,9 @@ from bot_console.tui.panes.diagnostics.table import LEVEL_STYLES, StatusRows
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from bot_console.tui.panes.list_pane import ListPane
 from bot_console.tui.screens.facts import FactsScreen, Section
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.redraw_interval import is_due
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
 from bot_console.tui.widgets.row_list import RowList

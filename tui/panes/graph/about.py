@@ -8,7 +8,8 @@ from bot_console.tui.console.graph.anomalies import SILENT, debugger_text
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC
 from bot_console.tui.panes.transitions import state_text
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 
 
 def summary(info: GraphInfo, item: str, hides_name: Callable[[str], bool]) -> str:

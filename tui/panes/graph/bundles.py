@@ -8,8 +8,9 @@ from dataclasses import dataclass, field
 from types import MappingProxyType
 
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, is_link, namespace_of
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.natural import natural_key
-from bot_console.tui.text.sanitize import counted, cut_name, sanitize
+from bot_console.tui.text.sanitize import cut_name, sanitize
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart, ChartBox, ChartLink
 
 LINE = "line:"

@@ -10,7 +10,8 @@ from bot_console.tui.console.sensors.port import Sensors
 from bot_console.tui.panes.graph.frame_rows import FrameRows
 from bot_console.tui.panes.graph.frame_tree import facts, rows, summary
 from bot_console.tui.screens.facts import FactsScreen
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.prompt.question import Option
 from textual.app import App, ComposeResult
 from textual.containers import Container

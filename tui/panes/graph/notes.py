@@ -12,7 +12,8 @@ from bot_console.tui.panes.graph.bundles import LINE, LOOP
 from bot_console.tui.panes.graph.namespaces import SPACE, TOPIC
 from bot_console.tui.panes.graph.rates import IDLE
 from bot_console.tui.panes.graph.view import GraphView, VisibleGraph
-from bot_console.tui.text.sanitize import counted, cut, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from rich.cells import cell_len
 

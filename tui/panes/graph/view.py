@@ -15,7 +15,8 @@ from bot_console.tui.panes.graph.bundles import Bundles, bundle_edges, state_mar
 from bot_console.tui.panes.graph.filtering import items_passing
 from bot_console.tui.panes.graph.focus_history import Focus, items_around
 from bot_console.tui.panes.graph.namespaces import ACTION, SERVICE, SPACE, TOPIC, box_of, folded_edges, is_link
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.diagram.flow_chart.model import Chart
 from bot_console.tui.widgets.diagram.graph import Digraph, Item
 from bot_console.tui.widgets.diagram.listing import Listing

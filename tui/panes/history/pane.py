@@ -27,8 +27,9 @@ from bot_console.tui.panes.history.rows import ChangeRows, day_text, details, pa
 from bot_console.tui.panes.history.sets import ChangeSet, changes_of, group_changes
 from bot_console.tui.panes.history.strip import time_strip
 from bot_console.tui.panes.list_pane import ListPane
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.refusals import of_many
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder

@@ -10,8 +10,9 @@ from bot_console.tui.console.query import Query
 from bot_console.tui.format import clock_text, command_of
 from bot_console.tui.panes.history.sets import ChangeSet, HistoryRow, changes_of
 from bot_console.tui.text.bars import bars
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.refusals import verdict_of_change
-from bot_console.tui.text.sanitize import counted, cut, sanitize
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len

@@ -31,9 +31,10 @@ from bot_console.tui.panes.pane import answer_of
 from bot_console.tui.panes.transitions import ask_transition, state_text
 from bot_console.tui.safety.stop_wording import ended_lock_warning
 from bot_console.tui.screens.facts import FactsScreen
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.endings import ending_text
 from bot_console.tui.text.redraw_interval import is_due
-from bot_console.tui.text.sanitize import counted, cut, sanitize
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.picture import Line, Picture
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -10,7 +10,8 @@ from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
 from bot_console.tui.console.query import Query
 from bot_console.tui.panes.launch.follow import CPU_SAMPLES, Follower, ProcessActivity
 from bot_console.tui.text.bars import strip
-from bot_console.tui.text.sanitize import counted, cut, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len
 from rich.segment import Segment

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from bot_console.tui.console.model import LogFilter, Severity
 from bot_console.tui.panes.logs.rules import RuleBook
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 
 LEVELS = (Severity.UNSET, Severity.INFO, Severity.WARN, Severity.ERROR, Severity.FATAL)
 

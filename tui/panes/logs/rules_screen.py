@@ -9,7 +9,8 @@ from typing import ClassVar
 from bot_console.tui import keymap
 from bot_console.tui.panes.logs.rules import COLOURS, HIDE, Rule, RuleBook, with_next_colour
 from bot_console.tui.terminal.dimmed_screen import DimmedScreen
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.widgets.box import Box
 from bot_console.tui.widgets.item_list import ItemList
 from bot_console.tui.widgets.prompt.common import filter_problem

@@ -29,7 +29,8 @@ from bot_console.tui.panes.parameters.rows import (
 )
 from bot_console.tui.panes.parameters.table import ParameterRows
 from bot_console.tui.panes.parameters.view_state import RowKey, ViewState, view_state_of
-from bot_console.tui.text.sanitize import counted, sanitize
+from bot_console.tui.text.counted import counted
+from bot_console.tui.text.sanitize import sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -11,7 +11,7 @@ from bot_console.tui.console.answer import Answer, answer_of
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, ProfileDifference, Value
 from bot_console.tui.console.parameters.dry_run import SERVICE, TYPE, can_be_asked, question
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 
 Asked = tuple[ParameterTree, Mapping[str, Value]]
 """A question to a node: its parameters at that time, and the new values."""

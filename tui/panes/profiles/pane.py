@@ -30,7 +30,7 @@ from bot_console.tui.panes.profiles.replacement import Replacement
 from bot_console.tui.panes.profiles.rows import DifferenceRows, ProfileRows, entries, outcome_text
 from bot_console.tui.panes.profiles.user_profiles import UserProfiles
 from bot_console.tui.safety.stop_wording import ended_lock_warning
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder

@@ -9,8 +9,9 @@ from textwrap import wrap
 
 from bot_console.tui.console.model import Profile, ProfileDifference, SetOutcome, Value
 from bot_console.tui.panes.profiles.dry_run import DryRun
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.refusals import verdict
-from bot_console.tui.text.sanitize import counted, cut, sanitize
+from bot_console.tui.text.sanitize import cut, sanitize
 from bot_console.tui.text.value_text import value_text
 from bot_console.tui.widgets.item_list import ItemList
 from rich.cells import cell_len

@@ -16,9 +16,9 @@ from bot_console.tui.panes.topics.message import MessageRows
 from bot_console.tui.panes.topics.qos_form import changed_qos, qos_fields, qos_problem, silence_reason
 from bot_console.tui.panes.topics.rows import Kind, Row, group_by_namespace, initial_folds, matches, rows
 from bot_console.tui.panes.topics.table import TopicRows, heading
+from bot_console.tui.text.counted import counted
 from bot_console.tui.text.figures import age_text, rate_text
 from bot_console.tui.text.redraw_interval import is_due
-from bot_console.tui.text.sanitize import counted
 from bot_console.tui.widgets.placeholder import FILTERED_OUT, Placeholder
 from bot_console.tui.widgets.prompt.common import path_problem
 from bot_console.tui.widgets.prompt.line import Prompt

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Protocol
 
-from bot_console.tui.text.sanitize import counted
+from bot_console.tui.text.counted import counted
 
 
 @dataclass(frozen=True, slots=True)
