@@ -15,6 +15,7 @@ from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT
 from bot_console.tui.learn.layout import LessonLayoutStore
 from bot_console.tui.pane_table import PANES
+from bot_console.tui.session.embedded.domain import domain
 from bot_console.tui.settings.appearance import Appearance
 from bot_console.tui.settings.layouts import FileLayouts
 from bot_console.tui.settings.settings import Settings, read_settings
@@ -48,7 +49,7 @@ def appearance_of(options: Options) -> Appearance:
 def _system(options: Options) -> str:
     """An id of the shown system, since the state of the screen is kept separately for each system."""
     if options.attach:
-        return f"attach {options.reached_by}"
+        return f"attach {options.reached_by} {domain()}"
     return str(Path(options.launch).resolve()) if options.launch else "robot"
 
 

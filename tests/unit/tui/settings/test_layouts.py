@@ -58,6 +58,16 @@ def test_built_in_layouts_fit_their_stated_size() -> None:
     assert Arrangement().tree(39, 19) is None
 
 
+def test_filters_are_kept_separately_for_the_systems_of_each_domain(monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = {}
+    for domain in ("21", "22", "21"):
+        monkeypatch.setenv("ROS_DOMAIN_ID", domain)
+        store = appearance_of(parse_attach([], attach_parser())[0]).state_store
+        kept[domain] = store.get("parameters")
+        store.put("parameters", {"filter": domain})
+    assert kept == {"21": {"filter": "21"}, "22": None}
+
+
 def test_command_line_takes_precedence_over_settings() -> None:
     config_folder().mkdir(parents=True)
     (config_folder() / "settings.yaml").write_text("layout: tuning\ntheme: light\nglyphs: plain\n")
