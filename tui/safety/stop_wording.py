@@ -41,6 +41,8 @@ def stop_text(drive: DriveInfo) -> str:
 
 def stop_key_text(drive: DriveInfo, ends: str) -> str:
     """The effect of the stop key on a stopped robot; `ends` is the word for ending this console's stop."""
+    if drive.refused and not (drive.lockable or drive.stop_confirmed or drive.awaits_robot):
+        return f"q {ends}: read-only console"  # nobody else ends this console's zeros
     if drive.refused:
         return "released elsewhere: read-only console"
     if drive.key_is_text:

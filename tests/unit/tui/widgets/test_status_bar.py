@@ -48,6 +48,13 @@ def test_a_console_that_is_read_only_promises_no_release() -> None:
     assert "! " not in status_text(ConsoleSnapshot(drive=replace(held, lockable=False, topic="/cmd_vel")))
 
 
+def test_zeros_of_a_console_that_is_read_only_end_with_it() -> None:
+    zeros = DriveInfo(stopped=True, stopped_here=True, refused="it only looks on", topic="/cmd_vel")
+    text = status_text(ConsoleSnapshot(drive=zeros))
+    assert text.startswith("STOP SENT, NOT CONFIRMED: THE ROBOT MAY MOVE, zeros only (q ends it: read-only console)")
+    assert "released elsewhere" in status_text(ConsoleSnapshot(drive=replace(zeros, stop_confirmed=True)))
+
+
 def test_stop_key_promises_no_release_while_a_question_lets_it_only_hold() -> None:
     held = DriveInfo(stopped=True, stop_confirmed=True, lockable=True, stopped_here=True, own_stops=frozenset(["ours"]))
     for drive in (held, replace(held, own_stops=frozenset(), stopped_here=False)):
