@@ -326,7 +326,7 @@ def test_enter_resumes_steering_a_robot_without_lock_after_timeout() -> None:
         steering(session).state.disarm()
         session.console.change(drive=stands)
         await session.settle()
-        assert "STOPPED  by zero Twists" in session.text()
+        assert "STOPPED  by zeros (no emergency stop): Enter resumes steering" in session.text()
         session.console.change(drive=replace(stands, stop_reason="ALL STOP"))
         await session.settle()
         await session.press("enter")
