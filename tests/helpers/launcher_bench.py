@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import threading
-import time
 from collections.abc import Callable
 from pathlib import Path
 from typing import Any
@@ -12,6 +10,7 @@ from bot_console.runtime.process import NodeProcess
 from bot_console.tui.console.launch.launcher import RosLauncher
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo
 from bot_console.tui.session.embedded.vitals import find_vitals
+from polling import until
 
 TIMEOUT_S = 240.0
 """Seconds after which a test gives up; the tests measure no time."""
@@ -113,12 +112,7 @@ class Bench:
 
     def until(self, condition: Callable[[], Any], what: str = "it") -> Any:
         """Wait until a condition holds; return its value."""
-        deadline = time.monotonic() + TIMEOUT_S
-        pause = threading.Event()
-        while not (found := condition()):
-            assert time.monotonic() < deadline, f"waited in vain for {what}: {self.info}"
-            pause.wait(0.005)
-        return found
+        return until(condition, lambda: f"waited in vain for {what}: {self.info}")
 
     def texts(self) -> list[str]:
         """The texts of the timeline."""

@@ -10,10 +10,9 @@ import contextlib
 import inspect
 import sys
 import threading
-import time
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any, Protocol, TypeVar
+from typing import Any, Protocol
 
 import pytest
 import rclpy
@@ -45,6 +44,7 @@ from bot_console.tui.console.ros_console import RosConsole
 from domains import unused_domain
 from fakes.console import FakeConsole
 from geometry_msgs.msg import Twist
+from polling import TIMEOUT_S, until
 from processes.certificates import make_certificates
 from processes.ports import free_port
 from rcl_interfaces.msg import FloatingPointRange, ParameterDescriptor, SetParametersResult
@@ -60,8 +60,6 @@ LOGGER_SERVICE: dict[str, Any] = {
     name: True for name in ("enable_logger_service",) if name in inspect.signature(rclpy.create_node).parameters
 }
 """Node options by which levels of its loggers can be set; Humble has no such service."""
-TIMEOUT_S = 240.0
-"""Seconds after which a test gives up; the tests measure no time."""
 TOO_FAST = "too fast for indoors"
 DESCRIPTION = "Highest speed (m/s)"
 PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
@@ -72,23 +70,12 @@ PROFILES: dict[str, tuple[str, dict[str, dict[str, Value]] | None]] = {
     "elsewhere": ("# Elsewhere: of another robot.", {"nobody_here": {"speed": 1.0}}),
 }
 
-T = TypeVar("T")
-
 Sides = Callable[[str], None]
 """Called before the robot and before the console is connected: chooses how it connects."""
 
 
 def IN_ONE(side: str) -> None:
     """Connect both to the same middleware, unchanged."""
-
-
-def until(condition: Callable[[], T], what: str = "it") -> T:
-    """Wait until a condition holds."""
-    deadline, pause = time.monotonic() + TIMEOUT_S, threading.Event()
-    while not (found := condition()):
-        assert time.monotonic() < deadline, f"waited in vain for {what}"
-        pause.wait(0.002)
-    return found
 
 
 def write_profiles(folder: Path) -> None:

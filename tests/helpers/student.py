@@ -13,10 +13,11 @@ import struct
 import subprocess
 import termios
 import threading
-import time
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
+import polling
 from bot_console.tui.learn.condition_check import with_names
 from bot_console.tui.learn.course import Course, Step, read_course
 from bot_console.tui.learn.lesson import CourseLesson
@@ -29,6 +30,7 @@ SIZE = (120, 40)
 LESSON_COLUMNS = slice(74, 118)
 """The inside of the lesson pane on a screen of that size."""
 PROMPT = "ready> "
+until = partial(polling.until, poll_s=0.05, timeout_s=TIMEOUT_S)
 
 
 class Pty:
@@ -123,14 +125,6 @@ class Shell:
     def close(self) -> None:
         """Close the terminal."""
         self._pty.close()
-
-
-def until(true: Callable[[], object], what: Callable[[], str]) -> None:
-    """Wait until a condition holds."""
-    deadline = time.monotonic() + TIMEOUT_S
-    while not true():
-        assert time.monotonic() < deadline, what()
-        time.sleep(0.05)
 
 
 def _without_blanks(text: str) -> str:

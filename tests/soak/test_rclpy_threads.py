@@ -14,6 +14,7 @@ from typing import Any
 import pytest
 from domains import unused_domain
 from example_interfaces.srv import AddTwoInts
+from polling import until
 from rclpy.callback_groups import MutuallyExclusiveCallbackGroup, ReentrantCallbackGroup
 from rclpy.context import Context
 from rclpy.executors import ExternalShutdownException, MultiThreadedExecutor, SingleThreadedExecutor
@@ -72,14 +73,6 @@ class Threads:
             raise self._errors[0]
 
 
-def eventually(what: Callable[[], bool]) -> None:
-    """Wait until a condition holds."""
-    end = time.monotonic() + TIMEOUT_S
-    while not what():
-        assert time.monotonic() < end, "the condition did not come true"
-        time.sleep(0.001)
-
-
 def test_ping_pong_between_two_executors_loses_nothing() -> None:
     count, done, threads = 50_000, threading.Event(), Threads()
     with context() as ctx:
@@ -129,7 +122,7 @@ def test_foreign_threads_lose_nothing(group: Any) -> None:
 
         for sender in range(senders):
             threads.start(send, sender)
-        eventually(lambda: len(got) == senders * per_thread)
+        until(lambda: len(got) == senders * per_thread)
         executor.shutdown()
         threads.join()
     assert set(got.values()) == {1}
@@ -163,7 +156,7 @@ def test_exclusive_group_is_exclusive_under_load() -> None:
 
         for _ in range(3):
             threads.start(press)
-        eventually(lambda: calls[0] > 12_000)
+        until(lambda: calls[0] > 12_000)
         executor.shutdown()
         threads.join()
     assert worst == [1]
@@ -282,7 +275,7 @@ def test_a_minute_of_everything_leaks_nothing() -> None:
         def live(seed: int) -> None:
             dice = random.Random(seed)
             while time.monotonic() < end:
-                eventually(lambda: len(sent) - len(got) < BACKLOG)
+                until(lambda: len(sent) - len(got) < BACKLOG)
                 node = Node(f"n{seed}", context=ctx)
                 executor = dice.choice(executors)
                 node.create_timer(0.001, lambda: None)
@@ -305,7 +298,7 @@ def test_a_minute_of_everything_leaks_nothing() -> None:
         for seed in range(4):
             lives.start(live, seed)
         lives.join(MINUTE)
-        eventually(lambda: len(got) == len(sent))
+        until(lambda: len(got) == len(sent))
         for executor in executors:
             executor.shutdown()
         threads.join()

@@ -6,13 +6,11 @@ import json
 import os
 import re
 import signal
-import threading
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from pathlib import Path
-from typing import Any
 
 import pytest
+from polling import until
 
 if os.name == "nt":
     pytest.skip("needs Unix sockets", allow_module_level=True)
@@ -98,15 +96,6 @@ def generate_launch_description():
 def process(launcher: CombinedLauncher) -> ProcessInfo | None:
     """The only process."""
     return next(iter(launcher.info().processes), None)
-
-
-def until(condition: Callable[[], Any], what: str) -> Any:
-    """Wait until a condition holds."""
-    deadline = time.monotonic() + TIMEOUT_S
-    while not (found := condition()):
-        assert time.monotonic() < deadline, f"waited in vain for {what}"
-        threading.Event().wait(0.02)
-    return found
 
 
 @pytest.mark.slow

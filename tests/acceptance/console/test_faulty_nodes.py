@@ -8,14 +8,13 @@ from __future__ import annotations
 import os
 import shutil
 import signal
-import threading
-import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import pytest
+from polling import until
 
 if not Path("/proc/self/schedstat").exists():
     pytest.skip("needs /proc and fork", allow_module_level=True)
@@ -66,11 +65,7 @@ class System:
 
     def until(self, condition: Callable[[], Any], what: str) -> Any:
         """Wait until a condition holds."""
-        deadline = time.monotonic() + TIMEOUT_S
-        while not (found := condition()):
-            assert time.monotonic() < deadline, (what, self.launcher.info().processes, self.printed[-5:])
-            threading.Event().wait(0.02)
-        return found
+        return until(condition, lambda: (what, self.launcher.info().processes, self.printed[-5:]), poll_s=0.02)
 
     def kill(self, names: Iterable[str]) -> None:
         """Kill the processes of these names."""

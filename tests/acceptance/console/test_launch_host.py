@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+from polling import until
 
 if not hasattr(os, "fork"):
     pytest.skip("needs fork", allow_module_level=True)
@@ -55,11 +56,7 @@ class HostedSystem:
 
     def until(self, condition: Callable[[], Any]) -> Any:
         """Wait until a condition holds."""
-        deadline = time.monotonic() + TIMEOUT_S
-        while not (found := condition()):
-            assert time.monotonic() < deadline, (self.launcher.info(), self.printed, self.log.read_text())
-            threading.Event().wait(0.01)
-        return found
+        return until(condition, lambda: (self.launcher.info(), self.printed, self.log.read_text()), poll_s=0.01)
 
     def named(self, name: str) -> Any:
         """The process of that name."""

@@ -11,6 +11,8 @@ import time
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from pathlib import Path
 
+from polling import until
+
 MOVING, RESTING = 0.1, 0.02
 """Speeds (m/s or rad/s) above which the robot counts as driving, and below which odometry counts as at rest."""
 TIMEOUT_S = 240.0
@@ -191,10 +193,7 @@ class LiveRobot:
 
     def until(self, true: Callable[[], bool], what: str) -> None:
         """Wait for a condition."""
-        deadline = time.monotonic() + TIMEOUT_S
-        while not true():
-            assert time.monotonic() < deadline, f"no {what}: {self.log()[-3000:]}"
-            time.sleep(0.02)
+        until(true, lambda: f"no {what}: {self.log()[-3000:]}", poll_s=0.02)
 
     def drives(self) -> None:
         """Wait until the robot drives."""

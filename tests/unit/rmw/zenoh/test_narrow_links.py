@@ -3,13 +3,14 @@
 import itertools
 import threading
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 import pytest
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
 from bot_console.runtime.rmw.zenoh.network.client import ClientConfig, NetworkSession, open_network_session
 from bot_console.runtime.rmw.zenoh.settings import Serving
+from polling import until
 from processes.bad_link import BadLink
 from processes.ports import free_port
 
@@ -19,7 +20,7 @@ RATE = 30_000.0
 KEPT_BYTES = int(3 * RATE)
 """Size of a kept message that the link carries in three seconds: longer than a message may wait between processes."""
 STALL_S = 2.5
-PERIOD_S, TIMEOUT_S = 0.01, 25.0
+PERIOD_S, POLL_S, TIMEOUT_S = 0.01, 0.1, 25.0
 MAP, ODOMETRY, LOG, STOP = "0/map/t", "0/odom/t", "0/rosout/t", "0/emergency_stop/base/t"
 
 
@@ -64,24 +65,15 @@ def system() -> Iterator[System]:
         each.close()
 
 
-def wait_for(done: Callable[[], object], step: Callable[[], object] = lambda: None) -> None:
-    """Repeat `step` until `done`; fail after the timeout."""
-    end = time.monotonic() + TIMEOUT_S
-    while not done():
-        assert time.monotonic() < end
-        step()
-        threading.Event().wait(0.1)
-
-
 def test_overloaded_link_carries_kept_messages_log_lines_and_stops(system: System) -> None:
     kept = system.robot.declare_publisher(MAP, cache=1)
     log, stop = system.robot.declare_publisher(LOG, blocking=True), system.robot.declare_publisher(STOP)
     kept.put(bytes(KEPT_BYTES), b"")
     system.overload()
     console = system.attach()
-    wait_for(lambda: system.heard[MAP])
+    until(lambda: system.heard[MAP], poll_s=POLL_S)
     both = (system.heard[LOG], system.heard[STOP])
-    wait_for(lambda: all(both), lambda: [each.put(b"first", b"") for each in (log, stop)])
+    until(lambda: all(both), step=lambda: [each.put(b"first", b"") for each in (log, stop)], poll_s=POLL_S)
     numbers = itertools.count()
     lines = [b"%d" % number for number in range(10)]
 
@@ -90,7 +82,7 @@ def test_overloaded_link_carries_kept_messages_log_lines_and_stops(system: Syste
             log.put(lines[number], b"")
             stop.put(lines[number], b"")
 
-    wait_for(lambda: all(lines[-1] in messages for messages in both), publish)
+    until(lambda: all(lines[-1] in messages for messages in both), step=publish, poll_s=POLL_S)
     for messages in both:
         assert [each for each in messages if each != b"first"] == lines
     assert system.heard[ODOMETRY] and system.link.connections == 1
@@ -100,13 +92,13 @@ def test_overloaded_link_carries_kept_messages_log_lines_and_stops(system: Syste
 def test_link_that_carries_nothing_for_some_seconds_is_not_cut(system: System) -> None:
     log = system.robot.declare_publisher(LOG, blocking=True)
     console = system.attach()
-    wait_for(lambda: system.heard[LOG], lambda: log.put(b"before", b""))
+    until(lambda: system.heard[LOG], step=lambda: log.put(b"before", b""), poll_s=POLL_S)
     system.link.cut()
     end = time.monotonic() + STALL_S
     while time.monotonic() < end:
         log.put(bytes(1000), b"")
         threading.Event().wait(PERIOD_S)
     system.link.restore()
-    wait_for(lambda: b"after" in system.heard[LOG], lambda: log.put(b"after", b""))
+    until(lambda: b"after" in system.heard[LOG], step=lambda: log.put(b"after", b""), poll_s=POLL_S)
     assert system.link.connections == 1
     console.close()

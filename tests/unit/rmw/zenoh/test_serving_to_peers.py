@@ -6,29 +6,19 @@ The node is a bare Zenoh session with those settings of rmw_zenoh's default conf
 # pyright: reportUnknownMemberType=false, reportUnknownVariableType=false
 
 import json
-import time
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from dataclasses import dataclass, field
-from threading import Event
 
 import pytest
 import zenoh
 from bot_console.runtime.rmw.zenoh.domain.mesh import MeshSession
 from bot_console.runtime.rmw.zenoh.settings import Serving
 from bot_console.runtime.rmw.zenoh.wire.tokens import TokenNode, node_token
+from polling import until
 from processes.ports import free_port
 
 TIMEOUT_S, POLL_S = 20.0, 0.02
 DOMAIN = 0
-
-
-def until(done: Callable[[], object], step: Callable[[], object] = lambda: None) -> None:
-    """Repeat `step` until `done`; fail after the timeout."""
-    end = time.monotonic() + TIMEOUT_S
-    while not done():
-        assert time.monotonic() < end
-        step()
-        Event().wait(POLL_S)
 
 
 @dataclass
@@ -119,8 +109,8 @@ def test_peer_sees_all_processes_of_the_robot_and_is_seen_by_them(robot: Robot, 
 
 def test_messages_between_peer_and_robot_arrive_once(robot: Robot, peers: list[Peer]) -> None:
     one = peers[0]
-    until(lambda: b"warm-up" in one.heard, lambda: robot.publisher.put(b"warm-up", b""))
-    until(lambda: b"warm-up" in robot.heard, lambda: one.publisher.put(b"warm-up"))
+    until(lambda: b"warm-up" in one.heard, step=lambda: robot.publisher.put(b"warm-up", b""))
+    until(lambda: b"warm-up" in robot.heard, step=lambda: one.publisher.put(b"warm-up"))
     for number in range(3):
         robot.publisher.put(b"down %d" % number, b"")
         one.publisher.put(b"up %d" % number)
@@ -134,11 +124,11 @@ def test_peer_gets_response_of_a_service(robot: Robot, peers: list[Peer]) -> Non
         answers.extend(each.ok.payload.to_bytes() for each in peers[0].session.get("service") if each.ok)
 
     answers: list[bytes] = []
-    until(lambda: answers, ask)
+    until(lambda: answers, step=ask)
     assert set(answers) == {b"answer"}
 
 
 def test_peers_of_the_router_discover_each_other(peers: list[Peer]) -> None:
     one, two = peers
     until(lambda: one.sees(str(two.session.zid())) and two.sees(str(one.session.zid())))
-    until(lambda: b"from peer" in two.heard, lambda: one.publisher.put(b"from peer"))
+    until(lambda: b"from peer" in two.heard, step=lambda: one.publisher.put(b"from peer"))

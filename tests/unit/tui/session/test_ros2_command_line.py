@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import threading
-import time
 from pathlib import Path
 from typing import Any
 
@@ -21,6 +19,7 @@ from bot_console.tui.session.embedded.ros2_command_line import Ros2CommandLine
 from bot_console.tui.session.embedded.workspaces import PROGRAM_LAUNCH
 from domains import unused_domain
 from fakes.launcher import FakeLauncher
+from polling import until
 
 TIMEOUT_S = 240.0
 
@@ -118,13 +117,6 @@ def test_line_that_cannot_start_is_reported(folder: Path, line: str, problem: st
 @pytest.mark.parametrize("line", ["launch x.launch.py --show-args", "run", "run --help", "topic list", "launch"])
 def test_lines_that_start_nothing_are_run_as_usual(folder: Path, line: str) -> None:
     assert parse_launch_line(line.split()) is None
-
-
-def until(condition: Any) -> None:
-    deadline = time.monotonic() + TIMEOUT_S
-    while not condition():
-        assert time.monotonic() < deadline
-        threading.Event().wait(0.01)
 
 
 def test_continuous_line_can_be_read_and_stopped(monkeypatch: pytest.MonkeyPatch) -> None:

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import sys
-import threading
-import time
-from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from bot_console.tui.session.machine.ros2_command_line import MachineCommandLine, printed_by
+from polling import until
 
 TIMEOUT_S = 240.0
 ROS2 = f"""#!{sys.executable}
@@ -27,13 +25,6 @@ def ros2(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "ros2").chmod(0o755)
     monkeypatch.setenv("PATH", str(tmp_path))
     monkeypatch.delenv("PYTHONUNBUFFERED", raising=False)
-
-
-def until(condition: Callable[[], object]) -> None:
-    deadline = time.monotonic() + TIMEOUT_S
-    while not condition():
-        assert time.monotonic() < deadline
-        threading.Event().wait(0.01)
 
 
 @pytest.mark.parametrize(
