@@ -7,6 +7,7 @@ from pathlib import Path
 
 import pytest
 from bot_console.tui.console.model import ChangeSource, Severity
+from bot_console.tui.panes.history import pane as history
 from bot_console.tui.panes.history.pane import HistoryPane
 from bot_console.tui.panes.history.rows import ChangeRows
 from bot_console.tui.panes.logs.pane import LogsPane
@@ -112,6 +113,19 @@ def test_going_back_to_a_row_asks_and_sets_all_values_together() -> None:
         assert (tree.get("turn_rate").value, tree.get("max_speed").value) == (1.0, 2.0)
 
     run(live(), play, (100, 30))
+
+
+def test_question_names_the_values_that_reduce_safety_before_all_others(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(history, "MAX_NAMED_VALUES", 1)
+
+    async def play(session: Session) -> None:
+        session.console.take(NAVIGATOR, {"max_speed": 3.0, "safety_distance": 1.5}, ChangeSource.PROFILE, by="outdoor")
+        await session.press("H", "b")
+        question = session.text().partition("Put 2 values back?")[2].partition("y yes")[0]
+        assert "safety_distance  1.5 → 0.8: lowers" in question and "max_speed" not in question
+        assert "and 1 value more" in question
+
+    run(live(), play, (120, 40))
 
 
 def test_refused_revert_changes_nothing_and_shows_the_reason() -> None:

@@ -240,7 +240,9 @@ class HistoryPane(ListPane):
         if not found:
             self.notify("; ".join(["The robot has these values already." if not missing else "", *missing]).strip("; "))
             return
-        lines = [self._line(each) for each in found[:MAX_NAMED_VALUES]]
+        # Values that reduce safety come first, so that they are never among those left out.
+        every = sorted((self._line(each) for each in found), key=lambda line: not line.startswith("⚠"))
+        lines = every[:MAX_NAMED_VALUES]
         lines += (
             [f"... and {counted(len(found) - MAX_NAMED_VALUES, 'value')} more"] if len(found) > MAX_NAMED_VALUES else []
         )
