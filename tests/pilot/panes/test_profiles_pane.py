@@ -66,6 +66,15 @@ def test_profiles_are_compared_until_one_is_previewed_and_c_compares_all() -> No
     run(live(), play, (80, 24))
 
 
+def test_profiles_stay_compared_after_the_running_one_was_applied_again() -> None:
+    async def play(session: Session) -> None:
+        await session.press("7", "a", "y")
+        assert "nothing to set" in session.text()
+        assert any("max_speed" in line and "⚠" in line for line in session.lines())
+
+    run(live(), play, (80, 24))
+
+
 @pytest.mark.slow
 def test_description_is_shown_in_full_at_80_columns_and_after_resizing() -> None:
     title = "Outdoor: higher speed, larger distances, and then so many words that no list has room for all of them"

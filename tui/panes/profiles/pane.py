@@ -146,7 +146,7 @@ class ProfilesPane(ListPane):
 
     def _show_comparison(self, profile: Profile | None) -> bool:
         """Compare all profiles if the user wants that or there is nothing to preview; returns whether it is shown."""
-        wanted = self._comparing or not (self._differences or self._outcomes or self._held)
+        wanted = self._comparing or not (self._differences or self._outcomes)
         rows, width = self.query_one(ComparisonRows), self.size.width
         if wanted:
             snapshot, listed = self._snapshot, self._list.rows
