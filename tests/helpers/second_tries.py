@@ -111,8 +111,10 @@ def _second_tries(config: pytest.Config) -> list[pytest.TestReport]:
             cwd=config.invocation_params.dir, env={**os.environ, "PYTEST_ADDOPTS": "", TRIES: str(place)},
             stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, check=False,
         )  # fmt: skip
-        lines: list[dict[str, Any]] = [json.loads(each) for each in place.read_text("utf-8").splitlines()]
-    return [config.hook.pytest_report_from_serializable(config=config, data=each) for each in lines]
+        lines: list[Any] = [json.loads(each) for each in place.read_text("utf-8").splitlines()]
+    # A run that could not even start has left the list of tests there.
+    reports = [each for each in lines if isinstance(each, dict)]
+    return [config.hook.pytest_report_from_serializable(config=config, data=each) for each in reports]
 
 
 def pytest_terminal_summary(terminalreporter: pytest.TerminalReporter) -> None:

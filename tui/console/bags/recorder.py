@@ -109,6 +109,8 @@ class Recorder:
 
     def turn(self) -> None:
         """Take waiting messages; search for new topics and flush when due. Call this every `PACE_S` seconds."""
+        if self._sim_time is not None:
+            self._sim_time.follow()  # not in `take`, which also has to work after a shutdown
         self.take()
         now = time.monotonic()
         if now - self._polled >= self._poll_s:

@@ -25,9 +25,12 @@ class SimTime:
         self._moments: list[int] = []
         self._times: list[int] = []
 
+    def follow(self) -> None:
+        """Adapt to the QoS of the present publishers."""
+        self._subscription.follow()
+
     def update(self) -> None:
         """Take the waiting messages of /clock."""
-        self._subscription.follow()
         now = time.time_ns()
         for data, sent in self._subscription.drain():
             clock = deserialize_message(data, self._kind).clock

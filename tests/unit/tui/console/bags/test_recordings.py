@@ -167,3 +167,15 @@ def test_an_error_ends_one_bag_and_the_next_can_be_recorded(
     assert "a fault" in answer_of(room.stop()).text
     assert answer_of(room.start(str(tmp_path / "second"))).ok and not room.info.problem
     assert answer_of(room.stop()).ok and Bag(tmp_path / "second").files
+
+
+def test_recording_in_simulated_time_ends_in_order_after_a_shutdown(tmp_path: Path, node: rclpy.node.Node) -> None:
+    clock, words = node.create_publisher(Clock, "/clock", 10), node.create_publisher(String, "/words", 10)
+    bag = BagWriter(tmp_path / "bag")
+    made = recorder.Recorder(node, bag, lambda name, types: name == "/words", get_message, sim_time=True)
+    clock.publish(Clock())
+    words.publish(String(data="a"))
+    rclpy.shutdown()  # as on SIGTERM
+    made.close()
+    bag.close()
+    assert texts(tmp_path / "bag") == ["a"]
