@@ -57,6 +57,13 @@ def test_only_tests_that_fail_in_both_tries_are_failures(tmp_path: Path) -> None
 
 
 @pytest.mark.slow
+def test_second_try_that_cannot_start_leaves_the_first_as_a_failure(tmp_path: Path) -> None:
+    spoils = "def test_spoils():\n    Path('conftest.py').write_text('import nothing_there')\n    assert 0\n"
+    (tmp_path / "test_it.py").write_text(TESTS + "\n\n" + spoils)
+    assert run(tmp_path, "0", "-k", "spoils")[:2] == (1, "1 failed, 4 deselected, 1 rerun")
+
+
+@pytest.mark.slow
 def test_run_in_which_all_pass_at_last_passes(tmp_path: Path) -> None:
     (tmp_path / "test_it.py").write_text(TESTS)
     assert run(tmp_path, "1")[:2] == (0, "4 passed, 3 rerun")
