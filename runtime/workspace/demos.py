@@ -63,6 +63,11 @@ EXECUTABLES: Mapping[str, Mapping[str, str]] = {
         "list_transports": "image_transport.republish:list_transports",
         "republish": "image_transport.republish:main",
     },
+    "rclcpp_components": {
+        "component_container": "rclcpp_components.component_container:main",
+        "component_container_isolated": "rclcpp_components.component_container:main_mt",
+        "component_container_mt": "rclcpp_components.component_container:main_mt",
+    },
     "tf2_ros": {
         "buffer_server": "tf2_tools.buffer_server:main",
         "static_transform_publisher": "tf2_tools.static_transform_publisher:main",

@@ -47,6 +47,13 @@ def test_components_are_loaded_listed_and_unloaded(ros, monkeypatch: pytest.Monk
     )
 
 
+@pytest.mark.parametrize("name", ["component_container", "component_container_mt", "component_container_isolated"])
+def test_containers_run_by_their_names_in_ros_2(ros, name: str) -> None:
+    ros.ros2("run", "rclcpp_components", name, "--ros-args", "-r", "__ns:=/box")
+    ros.run(0.1)
+    assert ros.ask("component", "list").stdout == f"{BOX}\n"
+
+
 def test_failed_load_is_reported(ros) -> None:
     ros.node(CONTAINER)
     failed = ros.ask("component", "load", BOX, "composition", "composition::Talker")

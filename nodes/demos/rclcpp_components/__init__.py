@@ -1,0 +1,1 @@
+"""Containers for components, as the package `rclcpp_components` has them."""
