@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+from bot_console.tui.console.model import Capabilities
 from bot_console.tui.console.sensors.camera_image import Picture
-from bot_console.tui.panes.images.pane import ImagesPane, ImageView
+from bot_console.tui.panes.images.pane import SILENT_AFTER_S, ImagesPane, ImageView
 from piloting import Session, run
 from samples import empty, with_camera
 
@@ -65,6 +66,23 @@ def test_frame_rate_is_limited_and_freezing_stops_updates() -> None:
         assert "on #cccccc" in drawn_lines(session)
         await session.press("minus", "minus")
         assert "at most 0.5 a second" in session.text()
+
+    run(system(), play)
+
+
+def test_picture_is_marked_as_old_when_no_more_images_arrive() -> None:
+    async def play(session: Session) -> None:
+        await session.press("I")
+        await pass_time(session, SILENT_AFTER_S - 1.0)
+        assert "no new image" not in session.text()
+        await pass_time(session, 1.0)
+        assert "no new image for 5 s" in session.text()
+        session.console.sensors.shown = picture(40, 2)
+        await pass_time(session, 1.0)
+        assert "no new image" not in session.text() and "on #222222" in drawn_lines(session)
+        session.console.change(capabilities=Capabilities(live="a bag"))
+        await pass_time(session, 60.0)
+        assert "no new image" not in session.text(), "the image of the moment that is inspected"
 
     run(system(), play)
 

@@ -13,6 +13,7 @@ from bot_console.tui.console.sensors.camera_image import Picture as Seen
 from bot_console.tui.panes.images import drawing
 from bot_console.tui.panes.images.frame_limit import FrameLimit
 from bot_console.tui.panes.pane import Pane
+from bot_console.tui.text.figures import age_text
 from bot_console.tui.widgets.picture import Picture
 from bot_console.tui.widgets.placeholder import NO_PLACEHOLDER, Placeholder
 from bot_console.tui.widgets.prompt.line import Prompt
@@ -35,6 +36,8 @@ class ImageView(Picture, can_focus=True):
         self.focus()
 
 
+SILENT_AFTER_S = 5.0
+"""Seconds without an image after which the one shown is marked as old."""
 MAX_HEAD_ROWS = 4
 """Maximum rows of the line above the image, which also says why there is none."""
 
@@ -65,6 +68,9 @@ class ImagesPane(Pane):
         self._shown: drawing.Pixels | None = None
         self._drawn: object = None
         self._frame_limit = FrameLimit()
+        self._arrived: tuple[str, int, float] = ("", 0, float("-inf"))
+        """The topic and number of the newest image, and when it arrived (s)."""
+        self._live = True
         self._frozen = self._once = self._as_characters = False
 
     def compose(self) -> ComposeResult:
@@ -84,6 +90,7 @@ class ImagesPane(Pane):
     def show(self, snapshot: ConsoleSnapshot) -> None:
         """Show the first image topic until the user chooses another one."""
         self._graph, self._problem = snapshot.graph, snapshot.problem
+        self._live = not snapshot.capabilities.live
         if not self._topic:
             self._topic = next(iter(self._topics()), "")
         self._poll()
@@ -101,6 +108,7 @@ class ImagesPane(Pane):
     def _ask_for(self, topic: str, columns: int, rows: int) -> None:
         if self._asked != (topic, columns, rows):
             self._asked = (topic, columns, rows)
+            self._arrived = topic, -1, self.clock()
             self.console.sensors.watch_image(topic, columns, rows)
 
     @property
@@ -121,6 +129,8 @@ class ImagesPane(Pane):
         if self._topic:
             self._ask_for(self._topic, size.width, size.height * 2)
         now, seen = self.clock(), self.console.sensors.picture()
+        if (seen.topic, seen.count) != self._arrived[:2]:
+            self._arrived = seen.topic, seen.count, now
         held = (self._frozen or self._slow) and not self._once
         if self._topic and seen.topic == self._topic and not held and (self._once or self._frame_limit.due(now)):
             self._draw(seen, now)
@@ -160,6 +170,9 @@ class ImagesPane(Pane):
     def _state(self) -> str:
         newer = self.console.sensors.picture().count - self._seen.count
         new = f", +{newer} new" if newer > 0 else ""
+        silence = self.clock() - self._arrived[2]
+        if self._live and silence >= SILENT_AFTER_S:
+            return f"no new image for {age_text(silence)}"
         if self._slow:
             return f"slow link: frozen{new}; space fetches one picture"
         if self._frozen:
