@@ -300,9 +300,16 @@ def status(words: Sequence[str]) -> int:
     for pid in stopped:
         print(f"process {pid} is stopped: its nodes do not respond; kill -CONT {pid} lets it continue")
     if not (there or robot or is_held or stopped):
-        print(f"nothing is running in {where}", file=sys.stderr)
+        print(f"nothing is running in {where}{_machine_hint() if not routers else ''}", file=sys.stderr)
         return 1
     return 0
+
+
+def _machine_hint() -> str:
+    """How to see what runs on the ROS 2 of this machine, which this program does not reach; empty if there is none."""
+    from bot_console.tui.session.machine.machine_ros import find_machine_ros
+
+    return "" if find_machine_ros() is None else "; `bot-console attach --ros` shows what runs on this machine's ROS 2"
 
 
 def _print_holders() -> bool:

@@ -2,11 +2,14 @@
 
 from collections.abc import Iterator
 from dataclasses import replace
+from pathlib import Path
 
 import pytest
 from bot_console.tui.cli.verbs import background, stop
 from bot_console.tui.console.robot.robot_model import RobotStop
 from bot_console.tui.console.robot.stop_link import FOLDER, LATCHED, StopInfo
+from bot_console.tui.session.machine import machine_ros
+from bot_console.tui.session.machine.machine_ros import MachineRos
 from diagnostic_msgs.msg import DiagnosticStatus, KeyValue
 from domains import unused_domain
 from rclpy.context import Context
@@ -53,6 +56,16 @@ def test_status_names_who_holds_a_robot_in_a_namespace(
     assert capsys.readouterr().out == "held by anna: my foot; bot-console release --all releases it\n"
     monkeypatch.setattr(background, "others_take_part", lambda: False)
     assert background.status([]) == 1
+
+
+@pytest.mark.parametrize("ros", [None, MachineRos(Path("/opt/ros/rclpy"))])
+def test_status_of_an_empty_domain_refers_to_the_ros2_of_the_machine(
+    monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str], ros: MachineRos | None
+) -> None:
+    monkeypatch.setenv("ROS_DOMAIN_ID", str(unused_domain()))
+    monkeypatch.setattr(machine_ros, "find_machine_ros", lambda: ros)
+    assert background.status([]) == 1
+    assert ("attach --ros" in capsys.readouterr().err) == (ros is not None)
 
 
 def test_nobody_holds_a_robot_that_does_not_exist(monkeypatch: pytest.MonkeyPatch) -> None:
