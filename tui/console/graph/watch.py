@@ -182,11 +182,17 @@ class GraphWatch:
         return topics, services
 
     def _inspect(self, owner: Owner, profiles: Profiles) -> tuple[Answer, NodeInfo]:
-        """Query a node; returns its answer and description, the same object as before if the answer is unchanged."""
+        """Query a node; returns its answer and description, the same object as before if nothing has changed."""
         answer, known = self._ask(*owner), self._nodes.get(owner)
         if known is None:
             return answer, _describe(owner, answer, NodeInfo(""), profiles)
-        return known if known[0] == answer else (answer, _describe(owner, answer, known[1], profiles))
+        if known[0] != answer:
+            return answer, _describe(owner, answer, known[1], profiles)
+        if not self._reported:
+            return known
+        # An event about a node with the same names may mean an endpoint, or a node, that was replaced with another QoS.
+        again = replace(_describe(owner, answer, NodeInfo(""), profiles), copies=known[1].copies)
+        return known if again == known[1] else (answer, again)
 
     def _ask(self, name: str, space: str) -> Answer:
         node = self._observer.node

@@ -6,6 +6,7 @@ from bot_console.tui.console.graph.watch import GraphWatch
 from bot_console.tui.session.embedded.hooks import graph_events
 from domains import unused_domain
 from rclpy.context import Context
+from rclpy.qos import QoSProfile, ReliabilityPolicy
 from std_msgs.msg import Float64
 
 
@@ -141,6 +142,24 @@ def test_only_the_node_named_by_an_event_is_queried(context, node):
     assert asked == ["n1", "n1"] and "/speed" not in {each.name for each in watch.info.topics}
     assert "/n2" not in {each.name for each in watch.info.nodes}
     assert "/n2/set_parameters" not in {each.name for each in watch.info.services}
+    watch.close()
+
+
+def test_endpoint_that_was_replaced_between_two_polls_has_its_new_qos(context, node):
+    other = rclpy.create_node("other", context=context)
+    publisher = other.create_publisher(Float64, "speed", 7)
+    seen = []
+    watch = GraphWatch(node, seen.append, graph_events)
+    watch.poll()
+    other.destroy_publisher(publisher)
+    other.create_publisher(Float64, "speed", QoSProfile(depth=3, reliability=ReliabilityPolicy.BEST_EFFORT))
+    watch.poll()
+    (info,) = (each for each in watch.info.nodes if each.name == "/other")
+    assert [each.qos for each in info.publishers if each.name == "/speed"] == ["best effort volatile 3"]
+    other.create_publisher(Float64, "speed", 9)
+    known = seen[-1]
+    watch.poll()
+    assert seen[-1] is known, "a second publisher of the same topic: the first one counts"
     watch.close()
 
 
