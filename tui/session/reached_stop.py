@@ -42,6 +42,16 @@ class ReachedStop:
         names = self._node.get_topic_names_and_types()
         self.link.follow(name for name, types in names if STATUS in types and self._node.count_publishers(name))
 
+    def unlocked(self) -> list[str]:
+        """The topics on which robots without a lock in their namespace take velocities."""
+        from bot_console.tui.console.robot.command_topics import STAMPED, TWIST
+        from bot_console.tui.console.robot.stop_link import STATUS, is_lock
+
+        topics = self._node.get_topic_names_and_types()
+        locked = {name.rsplit("/", 2)[0] for name, types in topics if STATUS in types and is_lock(name)}
+        found = (name for name, types in topics if name.endswith("/cmd_vel") and {TWIST, STAMPED}.intersection(types))
+        return [each for each in found if each.rsplit("/", 1)[0] not in locked and self._node.count_subscribers(each)]
+
     def hear(self) -> None:
         """Receive reports of the locks for a tenth of a second."""
         import rclpy

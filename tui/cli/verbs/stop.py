@@ -91,6 +91,9 @@ def ask(
             reached.hear()
             left = not link.info.confirmed if verb == "stop" else _to_release(link.info, everybody)
             done = link.info.locks > 0 and link.has_reported and not left
+        if verb == "stop" and kept and done and (topics := reached.unlocked()):
+            text = f"warning: nothing stops the robots of {' '.join(topics)}: they have no emergency stop"
+            print(sanitize(text), file=sys.stderr)
     return done, link.info
 
 
