@@ -15,7 +15,7 @@ from bot_console.tui.arrangement.startup import ORDERED, STATUS_PLACEHOLDER, Sta
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.files.crash import reason, save_traceback
 from bot_console.tui.keys.keyboard import MAX_PASTE_CHARACTERS, Keyboard
-from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.layout.built_in import OVERVIEW
 from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.panes.time_cursor import TimeCursor
 from bot_console.tui.safety.early_stop import EarlyStop

@@ -8,16 +8,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import NamedTuple
 
+from bot_console.runtime.programs.qt_plugins import QT_PLUGIN, imports_qt
+
 QUIET = (ast.Import, ast.ImportFrom, ast.ClassDef, ast.FunctionDef, ast.AsyncFunctionDef, ast.Assign, ast.AnnAssign)
 """Statements that only define something."""
-
-QT = ("rqt_gui", "rqt_gui_py", "python_qt_binding", "qt_gui")
-QT_PLUGIN = (
-    "{} is a plug-in of rqt and draws with Qt, which a terminal does not have: bot-console does not load it. What its "
-    "buttons do can be done here: set parameters in the pane Parameters, plot topics in Plot, and call services by a "
-    "ros2 line after a colon. The file is for rqt on a machine with ROS 2; what it does without Qt can be a node"
-)
-"""The message for rqt plug-ins."""
 
 
 class PlainFile(NamedTuple):
@@ -39,7 +33,7 @@ def examine(path: Path) -> PlainFile:
         return PlainFile(f"{path} is not a Python file: {error}")
     except (MemoryError, RecursionError):
         return PlainFile(f"{path} is nested too deeply for Python")
-    if _imports_qt(tree):
+    if imports_qt(tree):
         return PlainFile(QT_PLUGIN.format(path))
     mains = [each for each in tree.body if isinstance(each, ast.FunctionDef) and each.name == "main"]
     hint = ""
@@ -72,12 +66,6 @@ def _no_main(path: Path, tree: ast.Module) -> str:
         f"{path} has no main() and starts nothing, so there is nothing to run (ros2 run cannot start it either).{also} "
         f"Add: def main(): rclpy.init(); rclpy.spin({made}) - and below it: if __name__ == '__main__': main()"
     )
-
-
-def _imports_qt(tree: ast.Module) -> bool:
-    names = [each.module or "" for each in tree.body if isinstance(each, ast.ImportFrom)]
-    names += [each.name for node in tree.body if isinstance(node, ast.Import) for each in node.names]
-    return any(name.partition(".")[0] in QT for name in names)
 
 
 def _is_node(definition: ast.ClassDef) -> bool:

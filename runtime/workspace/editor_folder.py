@@ -15,7 +15,7 @@ from pathlib import Path
 from bot_console.runtime.files.user_folders import cache_folder
 from bot_console.runtime.importer import PACKAGES, RUNTIME
 from bot_console.runtime.interfaces.interface_finder import interface_folders
-from bot_console.runtime.programs.python_file_check import QT
+from bot_console.runtime.programs.qt_plugins import QT
 from bot_console.runtime.rosidl.names import KINDS
 from bot_console.runtime.rosidl.sources import EXAMPLES
 from bot_console.runtime.rosidl.stubs import package_stubs

@@ -81,9 +81,9 @@ def interface_verbs(words: Sequence[str]) -> None:
 
 
 def filter(text: str) -> None:
+    from bot_console.tui.console.filter_syntax import parse
     from bot_console.tui.console.logs.search import matching
     from bot_console.tui.console.model import LogFilter
-    from bot_console.tui.console.query import parse
 
     query = parse(text)
     query.matches("a text: Speed 1.0 m/s", "/robot_navigator")

@@ -4,12 +4,12 @@ import time
 from itertools import groupby
 
 import pytest
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.logs import patterns, view
 from bot_console.tui.console.logs.search import matching
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import SearchedView
 from bot_console.tui.console.model import LogFilter, LogRecord, Severity
-from bot_console.tui.console.query import parse
 from hypothesis import given
 from hypothesis import strategies as st
 

@@ -9,8 +9,8 @@ from typing import TYPE_CHECKING, Any, cast
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.keymap import READ_ONLY_WORDS
 from bot_console.tui.keys.key import NO_MODE
+from bot_console.tui.layout.built_in import OVERVIEW
 from bot_console.tui.layout.current_layout import Arrangement
-from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.layout.tree import Tree, panes
 from bot_console.tui.layout.unused import UnusedPanes
 from bot_console.tui.pane_table import PANES, PaneEntry

@@ -9,9 +9,9 @@ from pathlib import Path
 from bot_console.tui.cli.arguments import Options
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.keys.remapping import remap
+from bot_console.tui.layout.built_in import OVERVIEW
 from bot_console.tui.layout.current_layout import Arrangement
 from bot_console.tui.layout.form import LayoutError
-from bot_console.tui.layout.named import OVERVIEW
 from bot_console.tui.learn.layout import NAME as LESSON_LAYOUT
 from bot_console.tui.learn.layout import LessonLayoutStore
 from bot_console.tui.pane_table import PANES

@@ -14,7 +14,7 @@ from bot_console.tui.commanding.palette import Command, all_commands, options_fo
 from bot_console.tui.commanding.runner import LineRunner
 from bot_console.tui.console.command_line import CommandLine, Stream
 from bot_console.tui.console.protocol import Console
-from bot_console.tui.layout.named import OVERVIEW
+from bot_console.tui.layout.built_in import OVERVIEW
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.safety.line_risk import risk_of
 from bot_console.tui.safety.stopping import Stopping

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Protocol
 
-from bot_console.tui.layout.named import BUILT_IN, OVERVIEW, Layout
+from bot_console.tui.layout.built_in import BUILT_IN, OVERVIEW, Layout
 from bot_console.tui.layout.placing import Box, boxes, fits
 from bot_console.tui.layout.tree import Tree, close, exchange, panes
 

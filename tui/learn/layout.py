@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 
+from bot_console.tui.layout.built_in import Layout
 from bot_console.tui.layout.current_layout import LayoutStore
-from bot_console.tui.layout.named import Layout
 from bot_console.tui.layout.tree import Tree, below, beside, close
 
 NAME = "lesson"

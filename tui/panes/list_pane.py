@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import ClassVar
 
-from bot_console.tui.console.query import Query, parse
+from bot_console.tui.console.filter_syntax import Query, parse
 from bot_console.tui.keys.key import NO_MODE, Mode
 from bot_console.tui.panes.pane import Pane
 from bot_console.tui.widgets.prompt.filtered import Filterable

@@ -7,8 +7,8 @@ from functools import partial
 from typing import ClassVar
 
 from bot_console.tui import keymap
+from bot_console.tui.console.filter_syntax import Query, parse
 from bot_console.tui.console.model import Value
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.format import element_text
 from bot_console.tui.screens.question import QuestionScreen
 from bot_console.tui.text.counted import counted

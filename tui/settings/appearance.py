@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 
-from bot_console.tui.console.graph.connections import TOOL_NAMES
+from bot_console.tui.console.graph.hidden_names import TOOL_NAMES
 from bot_console.tui.files.state_store import MemoryStore, StateStore
 from bot_console.tui.layout.current_layout import Arrangement
 

@@ -12,8 +12,8 @@ from bot_console.tui.arrangement.rqt_command_line import RQT_PANES
 from bot_console.tui.files.folders import config_folder, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store
+from bot_console.tui.layout.built_in import OVERVIEW, Layout
 from bot_console.tui.layout.form import LayoutError, tree_from_data, tree_to_data
-from bot_console.tui.layout.named import OVERVIEW, Layout
 from bot_console.tui.layout.perspective import perspective_tree
 from bot_console.tui.layout.tree import Tree
 from bot_console.tui.settings.yaml_reader import NotPlainData, read_yaml, to_yaml

@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Any, cast
 
 from bot_console.tui.console.bags.snapshot_size import KEEP_MEGABYTES, KEEP_MINUTES, SnapshotSize
-from bot_console.tui.console.graph.connections import TOOL_NAMES
+from bot_console.tui.console.graph.hidden_names import TOOL_NAMES
 from bot_console.tui.console.launch.restart_policy import DEFAULT_RESTARTS, RestartPolicy
 from bot_console.tui.console.robot.stop_means.configured import ConfiguredMeans, configured_means
 from bot_console.tui.files.folders import config_folder

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import ClassVar
 
 from bot_console.tui import keymap
-from bot_console.tui.console.query import Query
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.terminal.styling import StyledByPart
 from bot_console.tui.widgets.placeholder import WithPlaceholder, placeholder_lines
 from rich.segment import Segment

@@ -11,7 +11,7 @@ from bot_console.tui.app import BotConsoleApp
 from bot_console.tui.arrangement import startup
 from bot_console.tui.arrangement.rqt_command_line import Opening
 from bot_console.tui.arrangement.startup import ORDERED, StartupSequence, System
-from bot_console.tui.layout.named import BUILT_IN, OVERVIEW
+from bot_console.tui.layout.built_in import BUILT_IN, OVERVIEW
 from bot_console.tui.layout.tree import panes
 from bot_console.tui.pane_table import PaneEntry
 from bot_console.tui.panes.broken_pane import BrokenPane

@@ -10,8 +10,9 @@ from dataclasses import replace
 
 from bot_console.tui.cli.numbers import positive, seconds
 from bot_console.tui.console.graph.anomalies import findings
-from bot_console.tui.console.graph.connections import connections, is_hidden, is_own_service, unconnected
+from bot_console.tui.console.graph.connections import connections, unconnected
 from bot_console.tui.console.graph.expected import ExpectedGraph, differences, read_file, written
+from bot_console.tui.console.graph.hidden_names import is_hidden, is_own_service
 from bot_console.tui.console.model import GraphInfo
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.console.topics.port import Measure

@@ -3,13 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Container, Iterable, Iterator
-from fnmatch import fnmatchcase
 
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
 
 NOBODY = "(none)"
-TOOL_NAMES = ("/rosout", "/parameter_events", "/statistics", "/rosout_agg", "/diagnostics_agg")
-"""Topics that every node or many tools use; they would clutter the graph."""
 
 KINDS: tuple[tuple[str, Callable[[NodeInfo], Iterable[Endpoint]], Callable[[NodeInfo], Iterable[Endpoint]]], ...] = (
     ("topic", lambda node: node.publishers, lambda node: node.subscriptions),
@@ -37,21 +34,6 @@ def connections(
             wrong = {each.subscription for each in info.incompatible.get(name, ())} if kind == "topic" else set[str]()
             what = name if kind == "topic" else f"{kind} {name}"
             yield kind, name, f"{what}  {message(givers.get(name, ()))} → {message(takers.get(name, ()), wrong)}"
-
-
-def is_hidden(name: str, patterns: Iterable[str]) -> bool:
-    """Whether a node or a topic is hidden: by a pattern, or because part of its name begins with an underscore, as in
-    ROS.
-    """
-    return "/_" in name or any(fnmatchcase(name, each) for each in patterns)
-
-
-def is_own_service(service: str, nodes: Iterable[NodeInfo]) -> bool:
-    """Whether a service belongs to its node alone, such as the parameter services, and has no client."""
-    nodes = list(nodes)
-    return any(service.startswith(f"{node.name}/") for node in nodes) and not any(
-        each.name == service for node in nodes for each in node.clients
-    )
 
 
 def unconnected(nodes: Iterable[NodeInfo], names: Container[tuple[str, str]]) -> list[str]:

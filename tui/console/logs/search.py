@@ -7,11 +7,11 @@ from typing import Generic, TypeVar
 
 import numpy as np
 import numpy.typing as npt
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.logs.hits import hits
 from bot_console.tui.console.logs.store import LogSegment, LogStore, Table
 from bot_console.tui.console.logs.time_filter import DAY_NS, SECOND_NS, Span, utc_offset
 from bot_console.tui.console.model import LogFilter, Severity
-from bot_console.tui.console.query import parse
 
 Mask = npt.NDArray[np.bool_]
 Rows = npt.NDArray[np.int64]

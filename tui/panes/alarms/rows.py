@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.model import RateCheck
-from bot_console.tui.console.query import Query
 from bot_console.tui.panes.alarms.alarm import Alarm
 from bot_console.tui.text.counted import counted
 from bot_console.tui.text.figures import age_text

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.query import Query
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.sensors.diagnostic_status import Level
 from bot_console.tui.panes.diagnostics.tree import Row, matches
 from bot_console.tui.text.figures import age_text

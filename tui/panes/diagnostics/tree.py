@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Collection, Sequence
 from dataclasses import dataclass, field
 
-from bot_console.tui.console.query import Query
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.sensors.diagnostic_status import Level, Status
 
 

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from itertools import product
 
+from bot_console.tui.console.filter_syntax import NodeTerm, Query, TextTerm
 from bot_console.tui.console.model import GraphInfo
-from bot_console.tui.console.query import NodeTerm, Query, TextTerm
 from bot_console.tui.panes.graph.namespaces import SPACE, is_link
 
 FIELDS = ("node:", "topic:")

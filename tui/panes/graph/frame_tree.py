@@ -6,7 +6,7 @@ import math
 from collections.abc import Iterator
 from dataclasses import dataclass
 
-from bot_console.tui.console.query import Query
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.sensors.frames import Frame, Frames, findings, loop_of, roots
 from bot_console.tui.screens.facts import Section
 

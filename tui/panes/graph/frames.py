@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
-from bot_console.tui.console.query import Query, parse
+from bot_console.tui.console.filter_syntax import Query, parse
 from bot_console.tui.console.sensors.frames import Frames, findings
 from bot_console.tui.console.sensors.port import Sensors
 from bot_console.tui.panes.graph.frame_rows import FrameRows

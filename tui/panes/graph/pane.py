@@ -11,9 +11,9 @@ from typing import Any, ClassVar
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
-from bot_console.tui.console.graph.connections import TOOL_NAMES
+from bot_console.tui.console.filter_syntax import Query, parse
+from bot_console.tui.console.graph.hidden_names import TOOL_NAMES
 from bot_console.tui.console.model import ConsoleSnapshot, GraphInfo
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.console.sensors.port import Sensors
 from bot_console.tui.files.save_file import save_file
 from bot_console.tui.panes.graph.about import node_of, nodes_on_topic

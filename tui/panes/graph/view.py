@@ -8,9 +8,10 @@ from dataclasses import dataclass, field, replace
 from enum import Enum
 from types import MappingProxyType
 
-from bot_console.tui.console.graph.connections import TOOL_NAMES, connections, is_hidden, unconnected
+from bot_console.tui.console.filter_syntax import Query
+from bot_console.tui.console.graph.connections import connections, unconnected
+from bot_console.tui.console.graph.hidden_names import TOOL_NAMES, is_hidden
 from bot_console.tui.console.model import GraphInfo, NodeInfo
-from bot_console.tui.console.query import Query
 from bot_console.tui.panes.graph.bundles import Bundles, bundle_edges, state_mark
 from bot_console.tui.panes.graph.filtering import items_passing
 from bot_console.tui.panes.graph.focus_history import Focus, items_around

@@ -5,8 +5,8 @@ from __future__ import annotations
 import time
 from collections.abc import Callable, Sequence
 
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.model import Change, ChangeSource, Kind, ParameterInfo, Value
-from bot_console.tui.console.query import Query
 from bot_console.tui.format import clock_text, command_of
 from bot_console.tui.panes.history.sets import ChangeSet, HistoryRow, changes_of
 from bot_console.tui.text.bars import bars

@@ -13,6 +13,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.filter_syntax import Query, parse
 from bot_console.tui.console.model import (
     ConsoleSnapshot,
     LaunchEvent,
@@ -20,7 +21,6 @@ from bot_console.tui.console.model import (
     ProcessInfo,
     ProcessState,
 )
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.folders import expanded_path
 from bot_console.tui.format import clock_text
 from bot_console.tui.panes.launch.follow import Follower

@@ -6,8 +6,8 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass
 from itertools import accumulate
 
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.model import LaunchInfo, ProcessInfo, ProcessState
-from bot_console.tui.console.query import Query
 from bot_console.tui.panes.launch.follow import CPU_SAMPLES, Follower, ProcessActivity
 from bot_console.tui.text.bars import strip
 from bot_console.tui.text.counted import counted

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from bot_console.tui.console.filter_syntax import Query, parse
 from bot_console.tui.console.model import LogRecord
-from bot_console.tui.console.query import Query, parse
 from bot_console.tui.files.folders import config_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
 from bot_console.tui.files.store_file import read_store

@@ -11,8 +11,8 @@ from pathlib import Path
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.model import ConsoleSnapshot, ParameterTree, same
-from bot_console.tui.console.query import parse
 from bot_console.tui.files.state_store import LAST_FILE
 from bot_console.tui.format import command_of
 from bot_console.tui.panes.parameters.absences import Absences

@@ -8,9 +8,9 @@ from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import lru_cache
 
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.model import ParameterInfo, ParameterTree
 from bot_console.tui.console.parameters.safety import DISTANCE, importance
-from bot_console.tui.console.query import Query
 from bot_console.tui.text.natural import NaturalKey, natural_key
 
 BUILT_IN = ("use_sim_time", "start_type_description_service")

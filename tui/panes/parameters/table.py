@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.model import ChangeSource, ParameterInfo
 from bot_console.tui.console.parameters.edits import ParameterEdits
 from bot_console.tui.console.parameters.origin_text import SET_BY
-from bot_console.tui.console.query import Query
 from bot_console.tui.panes.parameters.columns import (
     GAP_CELLS,
     MARKS_CELLS,

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, cast
 
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.files.state_store import strings_in
 from bot_console.tui.panes.parameters.rows import View
 

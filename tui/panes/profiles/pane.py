@@ -10,6 +10,7 @@ from typing import Any
 
 from bot_console.tui import keymap
 from bot_console.tui.console.answer import Answer, answer_of
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.model import (
     ConsoleSnapshot,
     ProcessInfo,
@@ -19,7 +20,6 @@ from bot_console.tui.console.model import (
     SetOutcome,
 )
 from bot_console.tui.console.parameters.file.node_keys import matches_node
-from bot_console.tui.console.query import parse
 from bot_console.tui.files.save_file import typed_path
 from bot_console.tui.files.state_store import LAST_FILE
 from bot_console.tui.panes.list_pane import ListPane

@@ -6,8 +6,8 @@ from collections.abc import Collection, Iterable, Sequence
 from dataclasses import dataclass, replace
 from enum import Enum
 
+from bot_console.tui.console.filter_syntax import Query
 from bot_console.tui.console.model import Endpoint, GraphInfo, IncompatiblePair, NodeInfo
-from bot_console.tui.console.query import Query
 from bot_console.tui.console.topics.port import Payload
 from bot_console.tui.text.namespaces import foldable_namespaces
 from bot_console.tui.text.natural import natural_key

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.files.save_file import NotSaved, typed_path
 from bot_console.tui.widgets.prompt.question import Line
 

@@ -8,8 +8,8 @@ import pytest
 from bot_console.tui.cli.appearance import appearance_of
 from bot_console.tui.cli.arguments import attach_parser, parse, parse_attach
 from bot_console.tui.files.folders import config_folder
+from bot_console.tui.layout.built_in import BUILT_IN
 from bot_console.tui.layout.current_layout import Arrangement
-from bot_console.tui.layout.named import BUILT_IN
 from bot_console.tui.layout.tree import below, beside
 from bot_console.tui.settings.layouts import FileLayouts
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import pytest
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.logs import patterns
 from bot_console.tui.console.logs.patterns import Pattern
 from bot_console.tui.console.logs.re2_engine import within_lines
 from bot_console.tui.console.logs.store import LogStore
 from bot_console.tui.console.logs.view import SearchedView
 from bot_console.tui.console.model import LogFilter
-from bot_console.tui.console.query import parse
 
 
 @pytest.fixture

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.sensors.diagnostic_status import Level
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from fakes.sensors import status

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.panes.graph.filtering import complete_word
 from bot_console.tui.panes.graph.view import GraphView, Mode, visible_graph
 from samples import graph

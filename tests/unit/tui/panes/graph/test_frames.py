@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.sensors.frames import Frame, Frames
 from bot_console.tui.panes.graph.frame_tree import facts, rows
 from bot_console.tui.panes.graph.frames import FramesView

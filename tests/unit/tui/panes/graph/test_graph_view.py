@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import pytest
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.graph.anomalies import findings
 from bot_console.tui.console.model import Endpoint, GraphInfo, NodeInfo
-from bot_console.tui.console.query import parse
 from bot_console.tui.panes.graph.about import summary
 from bot_console.tui.panes.graph.export import export_graph
 from bot_console.tui.panes.graph.view import GraphView, Mode, visible_graph

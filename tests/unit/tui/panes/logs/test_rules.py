@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 import pytest
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.model import LogRecord, Severity
-from bot_console.tui.console.query import parse
 from bot_console.tui.panes.logs.rules import COLOURS, Rule, RuleBook, rule_of
 from bot_console.tui.panes.logs.similar_lines import similarities
 from hypothesis import given

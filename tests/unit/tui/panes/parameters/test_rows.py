@@ -6,8 +6,8 @@ import time
 from dataclasses import replace
 
 import pytest
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.console.model import Kind, ParameterInfo, ParameterTree, Value
-from bot_console.tui.console.query import parse
 from bot_console.tui.panes.parameters.rows import TreeRows, View, initial_folds, matches, row_named, rows, unfold_to
 
 

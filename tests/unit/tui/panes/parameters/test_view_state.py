@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from bot_console.tui.console.query import parse
+from bot_console.tui.console.filter_syntax import parse
 from bot_console.tui.panes.parameters.rows import View
 from bot_console.tui.panes.parameters.view_state import ViewState, view_state_of
 
