@@ -19,6 +19,8 @@ ENDED = "ExternalShutdownException"
 """The exception that a wait raises when SIGTERM has ended the context; by name, as not every command imports rclpy."""
 NO_THREAD = "can't start new thread"
 """Python's message in the RuntimeError for this."""
+NO_DESCRIPTOR = f"(os error {errno.EMFILE})"
+"""The end of Zenoh's message in the RuntimeError for this."""
 UNMAPPED = "failed to map segment"
 """The message in the ImportError for a library that does not fit into memory."""
 NO_TEMPORARY = "No usable temporary directory"
@@ -61,7 +63,8 @@ def limit_fault(error: BaseException | None) -> str:
         return "there is too little memory (a limit is shown by `ulimit -v`)"
     if isinstance(error, RuntimeError) and str(error) == NO_THREAD:
         return "no more threads can be started (limits are shown by `ulimit -v` and `ulimit -u`)"
-    if isinstance(error, OSError) and error.errno == errno.EMFILE:
+    is_zenoh = isinstance(error, RuntimeError) and NO_DESCRIPTOR in str(error)
+    if is_zenoh or (isinstance(error, OSError) and error.errno == errno.EMFILE):
         return "too many files are open (the limit is shown by `ulimit -n`)"
     if isinstance(error, OSError) and error.filename is None and NO_TEMPORARY in str(error):
         return "no temporary file can be written: the disk is full, or the size of files is limited (`ulimit -f`)"

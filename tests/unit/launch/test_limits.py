@@ -27,6 +27,10 @@ def error_lines(monkeypatch):
             "no more threads can be started (limits are shown by `ulimit -v` and `ulimit -u`)",
         ),
         (MemoryError(), "there is too little memory (a limit is shown by `ulimit -v`)"),
+        (
+            RuntimeError("cannot listen: Too many open files (os error 24)"),
+            "too many files are open (the limit is shown by `ulimit -n`)",
+        ),
         (OSError(24, "Too many", "/dev/null"), "too many files are open (the limit is shown by `ulimit -n`)"),
     ],
 )
