@@ -71,8 +71,9 @@ class BufferCore:
     def _insert(self, message: TransformStamped, authority: str, *, is_static: bool) -> None:
         stamp = message.header.stamp
         move, turn = message.transform.translation, message.transform.rotation
-        read = (move.x, move.y, move.z, turn.x, turn.y, turn.z, turn.w)
-        place = tuple(map(float, read))  # not numpy's numbers, which tf_transformations returns
+        # As floats: tf_transformations returns numpy's numbers.
+        x, y, z = float(move.x), float(move.y), float(move.z)
+        place = (x, y, z, float(turn.x), float(turn.y), float(turn.z), float(turn.w))
         entry = stamp.sec * S_TO_NS + stamp.nanosec, message.header.frame_id.removeprefix("/"), place, authority
         child = message.child_frame_id.removeprefix("/")
         if child in self._histories:
