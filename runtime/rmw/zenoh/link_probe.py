@@ -11,6 +11,8 @@ import time
 from collections.abc import Callable
 from dataclasses import dataclass, replace
 
+from bot_console.runtime.process.virtual.child_threads import start_outside
+
 PING_PERIOD_S = 0.4
 """Interval between pings, in seconds."""
 DISTRUST_AFTER_S = 5.0
@@ -55,7 +57,7 @@ class LinkProbe:
         self.state = LinkState(to, now)  # the link has just been opened
         self._ended = threading.Event()
         self._thread = threading.Thread(target=self._run, name="link-probe", daemon=True)
-        self._thread.start()
+        start_outside(self._thread)
 
     def end(self) -> None:
         """Stop pinging."""

@@ -14,6 +14,8 @@ import threading
 from collections.abc import Callable, Generator
 from contextlib import contextmanager
 
+from bot_console.runtime.process.virtual.child_threads import start_outside
+
 VARIABLE = "ZENOH_RUNTIME"
 """Environment variable from which Zenoh takes the number of its threads, when a process opens its first session."""
 
@@ -44,7 +46,7 @@ class LinkWaker:
         self._has_new_link, self._has_ended = threading.Event(), False
         thread = threading.Thread(target=self._run, name="zenoh-links", daemon=True)
         thread.pydev_do_not_trace = True  # pyright: ignore[reportAttributeAccessIssue] -- debugpy must not stop it
-        thread.start()
+        start_outside(thread)
 
     def link_changed(self, zid: str, there: bool) -> None:
         """A link is being made (True) or was lost; called on one of Zenoh's threads."""

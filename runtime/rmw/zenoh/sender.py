@@ -8,6 +8,7 @@ from collections import deque
 
 from bot_console.runtime.process import current
 from bot_console.runtime.process.notices import notify
+from bot_console.runtime.process.virtual.child_threads import start_outside
 from bot_console.runtime.rmw.zenoh.congestion_control import WAIT_BEFORE_DROP_US
 from bot_console.runtime.rmw.zenoh.declarations import Publisher
 
@@ -92,7 +93,7 @@ class Sender:
             self._wake.release()
         elif self._thread is None and not self._ended:
             self._thread = threading.Thread(target=self._run, name="zenoh-sender", daemon=True)
-            self._thread.start()
+            start_outside(self._thread)  # not of the node that happens to publish first, with which it would end
 
     def _wait_until_empty(self, timeout_s: float) -> bool:
         """Wait until the queue is sent, at most `timeout_s`; return whether it was."""

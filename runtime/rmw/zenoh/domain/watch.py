@@ -16,6 +16,7 @@ import time
 from collections.abc import Callable
 from typing import Protocol
 
+from bot_console.runtime.process.virtual.child_threads import start_outside
 from bot_console.runtime.rmw.zenoh.domain.debugger_note import update_note
 from bot_console.runtime.rmw.zenoh.domain.sockets import Socket, is_stopped, live_sockets, sockets
 
@@ -103,7 +104,7 @@ class Watch:
         """Start watching."""
         thread = threading.Thread(target=self._run, name="zenoh-watch", daemon=True)
         thread.pydev_do_not_trace = True  # pyright: ignore[reportAttributeAccessIssue] -- debugpy must not stop it, too
-        thread.start()
+        start_outside(thread)
 
     def end(self) -> None:
         """Stop watching."""

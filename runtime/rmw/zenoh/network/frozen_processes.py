@@ -9,6 +9,7 @@ from __future__ import annotations
 import threading
 from collections.abc import Callable, Mapping
 
+from bot_console.runtime.process.virtual.child_threads import start_outside
 from bot_console.runtime.rmw.zenoh.declarations import Declaration
 from bot_console.runtime.rmw.zenoh.session import Session
 
@@ -32,7 +33,7 @@ class StoppedTokens:
         self._debugged = debugged
         self._shown: dict[str, Declaration] = {}
         self._ended = threading.Event()
-        threading.Thread(target=self._run, name="stopped-tokens", daemon=True).start()
+        start_outside(threading.Thread(target=self._run, name="stopped-tokens", daemon=True))
 
     def end(self) -> None:
         """Stop checking."""

@@ -3,7 +3,8 @@
 import threading
 
 import pytest
-from bot_console.runtime.process import on_notice
+from bot_console.runtime.process import NodeProcess, on_notice
+from bot_console.runtime.process.virtual.install import uninstall_virtual_process
 from bot_console.runtime.rmw.zenoh import sender as module
 from bot_console.runtime.rmw.zenoh.sender import Sender
 
@@ -69,6 +70,28 @@ def test_publishing_does_not_block_and_order_is_kept(sender):
     publisher.free.set()
     assert sender.end(TIMEOUT_S)
     assert publisher.sent == [b"1", b"2", b"3", "undeclared"]
+
+
+@pytest.fixture
+def node():
+    made = NodeProcess("first")
+    yield made
+    made.kill()
+    uninstall_virtual_process()
+
+
+def test_thread_is_not_one_of_the_node_that_published_first_with_which_it_would_end(sender, node):
+    publisher, threads = FullLinkPublisher(), []
+
+    def publish_first():
+        sender.send(publisher, "/t", b"1", b"a")
+        threads.extend(threading.enumerate())
+
+    node.start(publish_first)
+    assert node.wait(TIMEOUT_S) == 0
+    assert publisher.reached.wait(TIMEOUT_S)
+    publisher.free.set()
+    assert [each.name for each in threads] == ["MainThread"]
 
 
 def test_message_without_room_is_dropped_and_reported(sender, monkeypatch):
