@@ -63,7 +63,7 @@ def controls_of(
     `redraw` sends every cell again, `open` shows an opening, and `changed` is called after a pane was replaced.
     """
     quitting = Quitting(app, console)
-    stopping = Stopping(app, console, quitting, stage.typing, stage.is_too_small)
+    stopping = Stopping(app, console, quitting, stage.typing, stage.hides_stops)
     early_stop.attach(console.drive, stopping.on_early_key, lambda: console.snapshot().drive.own_stops)
     leaving = TerminalHandover(app, console, redraw, holds=not console.gate.read_only)
     gated = GatedCommandLine(console.gate, lines)

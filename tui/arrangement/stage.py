@@ -17,6 +17,7 @@ from bot_console.tui.pane_table import PANES, PaneEntry
 from bot_console.tui.screens.question_screens import screen_for
 from bot_console.tui.widgets.key_bar import NO_OTHERS, KeyBar
 from bot_console.tui.widgets.pane_area import PaneArea
+from bot_console.tui.widgets.status_bar import StatusBar
 from bot_console.tui.widgets.tabs import Tab, Tabs
 from textual.app import App
 from textual.geometry import Size
@@ -108,6 +109,13 @@ class Stage:
     def is_too_small(self) -> bool:
         """Whether only a notice is shown."""
         return self._extent.width < MIN_SIZE[0] or self._extent.height < MIN_SIZE[1]
+
+    def hides_stops(self) -> bool:
+        """Whether no stop can be seen: only a notice is shown, or a box on top of the panes covers the status line."""
+        base, *above = self._app.screen_stack
+        lines = [each.region for each in base.query(StatusBar)]
+        boxes = [each.region for screen in above for each in screen.children]
+        return self.is_too_small() or any(box.overlaps(line) for box in boxes for line in lines)
 
     def selected(self) -> str:
         """The id of the focused pane."""

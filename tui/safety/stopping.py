@@ -26,9 +26,7 @@ class Stopping:
         typing: Callable[[], bool],
         is_hidden: Callable[[], bool],
     ) -> None:
-        """`typing` returns whether a text field has the focus, `is_hidden` whether no stop can be seen, since the
-        terminal is too small.
-        """
+        """`typing` returns whether a text field has the focus, `is_hidden` whether no stop can be seen."""
         self._app = app
         self._console = console
         self._quitting = quitting
@@ -44,7 +42,7 @@ class Stopping:
 
         If the robot is held only while the console asks whether to quit, the key turns that into the person's own stop.
         While the console asks whether to release the stops of others, which has its own keys, it keeps the robot held.
-        In a terminal that is too small to show a stop, it releases nothing.
+        Where no stop can be seen, it releases nothing.
         """
         drive = self._console.snapshot().drive
         holds = self._quitting.keep_held() or self._asking or self._is_hidden()

@@ -319,3 +319,14 @@ def test_first_cursor_is_on_the_most_important_parameter_in_any_node_order() -> 
         assert "/max" not in session.text()
 
     run(system, play)
+
+
+@pytest.mark.parametrize(("lines", "released"), [(20, False), (24, True)])
+def test_stop_key_releases_no_stop_whose_line_the_help_covers(lines: int, *, released: bool) -> None:
+    async def play(session: Session) -> None:
+        await session.press("exclamation_mark")
+        await session.press("question_mark")
+        await session.press("exclamation_mark")
+        assert session.console.asked[-1] == ("all_stop", not released)
+
+    run(live(), play, (60, lines))
