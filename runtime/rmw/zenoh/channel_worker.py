@@ -10,6 +10,8 @@ from collections.abc import Callable
 from contextlib import suppress
 from typing import Any, Protocol
 
+from bot_console.runtime.process.virtual.child_threads import start_outside
+
 MAX_WAITING_SAMPLES = 100_000
 """Capacity of a channel in samples: enough for 5,000 nodes that appear at once. Zenoh's thread waits while it is full.
 """
@@ -82,7 +84,7 @@ def drain_in_worker(channel: Channel, take: Callable[[Any], None], ended: type[E
     """Start and return a thread that passes samples to `take`, in order, until the channel raises `ended`."""
     taking = ChannelWorker(channel, take, ended)
     _all.add(taking)
-    taking.start()
+    start_outside(taking)
     return taking
 
 
