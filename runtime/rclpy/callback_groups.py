@@ -45,8 +45,8 @@ class CallbackGroup:
     def unblock(self) -> None:
         """Notify waiting entities that they may try again."""
         blocked, self.blocked = self.blocked, None
-        for entity in blocked or ():
-            entity.notify()
+        for entity in dict.fromkeys(blocked or ()):
+            entity.refused()
 
     def add_entity(self, entity: object) -> None:
         """Add an entity to the group."""

@@ -17,7 +17,7 @@ from typing import TYPE_CHECKING, Any
 from bot_console.runtime.distribution import distribution
 from bot_console.runtime.process import current
 from rclpy.deadlock import WARNING_DELAY_NS, report_future, runs_in_callback
-from rclpy.impl.callback_order import sort_entities, sort_tasks
+from rclpy.impl.callback_order import sort_entities, sort_longest_refused_first, sort_tasks
 from rclpy.impl.explanations import spun_twice
 from rclpy.impl.reexports import reexporting
 from rclpy.impl.timer_heap import TimerHeap
@@ -139,6 +139,7 @@ class Executor(TaskQueue, ReadyCallbacks):
 
     receives_in_one_thread = False
     """Whether nothing can be received while a callback runs."""
+    _sort = staticmethod(sort_entities)
 
     def __init__(self, *, context: Context | None = None) -> None:
         self._context = get_default_context() if context is None else context
@@ -332,7 +333,7 @@ class Executor(TaskQueue, ReadyCallbacks):
     def _release_held(self) -> None:
         held, self._held = self._held, []
         for entity in held:
-            entity.notify()
+            entity.refused()
 
     def _new_batch(self) -> bool:
         """Collect the ready entities and tasks into the batch; returns whether there are any."""
@@ -353,7 +354,7 @@ class Executor(TaskQueue, ReadyCallbacks):
         if self._ready_tasks:
             batch.extend(self._collect_tasks())
         if len(entities) > 1:
-            sort_entities(entities)
+            self._sort(entities)
         batch.extend(entities)
         return bool(batch)
 
@@ -430,6 +431,8 @@ class SingleThreadedExecutor(Executor):
 class MultiThreadedExecutor(Executor):
     """Runs callbacks in a pool of threads; an exception of a callback is raised at a later `spin_once`."""
 
+    _sort = staticmethod(sort_longest_refused_first)
+
     def __init__(self, num_threads: int | None = None, *, context: Context | None = None) -> None:
         super().__init__(context=context)
         if num_threads is None:
@@ -459,6 +462,7 @@ class MultiThreadedExecutor(Executor):
         except (ExternalShutdownException, ShutdownException, TimeoutException, ConditionReachedException):
             item = None
         if item is not None:
+            item.refusals = 0
             done: Task[Any] = Task(self._run, (item,))
             done._when_settled(self.wake)
             self._futures.append(done)

@@ -3,6 +3,9 @@
 Tasks that can continue come first, the newest or the oldest one depending on the distribution; then waitables of any
 node. Then come, node by node in the order in which the nodes were added, timers, subscriptions, guard conditions,
 clients and services; among these, the one that was created first.
+
+With several threads, a timer that is always due is so again while its callback runs, and would always come first: what
+has waited longest for its callback group precedes all else.
 """
 
 from __future__ import annotations
@@ -29,6 +32,11 @@ class Ordered(Protocol):
         """The entity's `order_key`."""
         ...
 
+    @property
+    def refusals(self) -> int:
+        """For how many callbacks of its group it has had to wait."""
+        ...
+
 
 EntityT = TypeVar("EntityT", bound=Ordered)
 TaskT = TypeVar("TaskT")
@@ -49,6 +57,11 @@ def order_key(kind: int, node_order: int, creation: int) -> OrderKey:
 def sort_entities(entities: list[EntityT]) -> None:
     """Sort the entities that are ready in one wake."""
     entities.sort(key=_key)
+
+
+def sort_longest_refused_first(entities: list[EntityT]) -> None:
+    """Sort the entities that are ready in one wake, those first whose group has refused them most often."""
+    entities.sort(key=lambda each: (-each.refusals, each.key))
 
 
 def sort_tasks(tasks: list[TaskT], created: Iterable[TaskT]) -> None:

@@ -88,6 +88,8 @@ class Entity:
     due_at = 0
     arms_itself = False
     """Whether it reports its next due time to the executor before its callback, and need not be asked afterwards."""
+    refusals = 0
+    """How often its callback group has made it wait, since it last ran in an executor with several threads."""
 
     def __init__(self, callback_group: EntityGroup) -> None:
         self.callback_group = callback_group
@@ -103,6 +105,11 @@ class Entity:
             sink._ready.append(self)
             if sink._waiting:
                 sink._wakeup.set()
+
+    def refused(self) -> None:
+        """Mark the entity as ready once more, after it had to wait for its callback group."""
+        self.refusals += 1
+        self.notify()
 
     def pending(self) -> bool:
         """Whether there is something to do."""

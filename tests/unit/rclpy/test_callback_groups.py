@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import threading
+from collections import Counter
 from typing import Any
 
 import pytest
@@ -120,6 +121,40 @@ def test_group_may_span_nodes_and_executors(ros: Any) -> None:
     assert done.wait(TIMEOUT_S)
     other.shutdown()
     assert got == ["first", "second"]
+
+
+class OwnExclusiveGroup(CallbackGroup):
+    """A group of the program's own, with one callback at a time."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self._busy = threading.Lock()
+
+    def can_execute(self, entity: Any) -> bool:
+        return not self._busy.locked()
+
+    def beginning_execution(self, entity: Any) -> bool:
+        return self._busy.acquire(blocking=False)
+
+    def ending_execution(self, entity: Any) -> None:
+        self._busy.release()
+
+
+@pytest.mark.parametrize("kind", [MutuallyExclusiveCallbackGroup, OwnExclusiveGroup])
+def test_timers_that_are_always_due_do_not_starve_the_others_of_their_group(ros: Any, kind: Any) -> None:
+    node, group, calls = ros.node(), kind(), Counter[str]()
+    executor = MultiThreadedExecutor(2, context=ros.context)
+    executor.add_node(node)
+    publisher = node.create_publisher(Int32, "t", 10)
+    node.create_timer(0.0, lambda: (calls.update(["first"]), publisher.publish(Int32())), group)
+    node.create_timer(0.0, lambda: calls.update(["second"]), group)
+    node.create_subscription(Int32, "t", lambda message: calls.update(["message"]), 10, callback_group=group)
+    guard = node.create_guard_condition(lambda: calls.update(["guard"]), group)
+    guard.trigger()
+    while len(calls) < 4 and calls["first"] < 1000:
+        executor.spin_once()
+    executor.shutdown()
+    assert set(calls) == {"first", "second", "message", "guard"}
 
 
 def test_waiting_coroutine_keeps_its_exclusive_group(ros: Any) -> None:
