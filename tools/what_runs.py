@@ -71,6 +71,11 @@ PARTS = {
     "irobot_create_msgs": "`Mouse`, `IrOpcode`, `WallFollow`, `DockServo`",
     "launch_ros": "C++ components",
     "nav2_msgs": "services added after the first Jazzy release",
+    "nav2_simple_commander": (
+        "`BasicNavigator` has all methods; with the built-in robot, those for costmaps, docks, GPS, other maps, given "
+        "paths (`followPath`, `smoothPath`), `getPathThroughPoses` and `assistedTeleop` wait for a server that it does "
+        "not have"
+    ),
     "launch_pytest": "`launch_service`, `launch_context` and `event_loop` for fixtures wider than a function",
     "launch_testing": "`loader` and `test_runner`; `bot-console test` and `launch_test` run test files",
     "message_filters": "`LatestTimeSynchronizer`, input aligner",

@@ -11,7 +11,8 @@ from typing import Any, TypeVar, cast
 
 import yaml
 from bot_console.tui.cli.bags.play import report_repaired
-from bot_console.tui.cli.bags.record_arguments import wanted_topics
+from bot_console.tui.cli.bags.play_arguments import input_problem
+from bot_console.tui.cli.bags.record_arguments import PRESETS, wanted_topics
 from bot_console.tui.console.bags.definitions import class_of, definition
 from bot_console.tui.console.bags.merged_bags import MergedBags
 from bot_console.tui.console.bags.reader import Bag
@@ -33,6 +34,13 @@ SUPPORTED_KEYS = frozenset(
      "include_hidden_topics", "include_unpublished_topics"]
 )  # fmt: skip
 """Keys of an output that have an effect; others are ignored with a warning."""
+CHOICES: Mapping[str, tuple[str, ...]] = {
+    "storage_id": PLUGINS["storage"],
+    "storage_preset_profile": PRESETS,
+    "compression_mode": ("none", "file", "message"),
+    "compression_format": ("zstd",),
+}
+"""The values of keys that take one of a few words."""
 _V = TypeVar("_V")
 
 
@@ -43,15 +51,20 @@ def add_convert_arguments(parser: argparse.ArgumentParser) -> None:
 
 
 def convert(given: argparse.Namespace) -> int:
-    """Rewrite bags with other settings; 0 done, 1 failed."""
+    """Rewrite bags with other settings; 0 done, 1 failed, 2 wrong options."""
+    if wrong := input_problem(given.input):
+        print(sanitize(wrong), file=sys.stderr)
+        return 2
     try:
         outputs = _outputs(given.output_options)
+        for each in outputs:
+            _check(each)
         bags = [Bag(Path(each[0])) for each in given.input]
         for each in bags:
             report_repaired(each)
         for each in outputs:
             _write(bags, each)
-    except (OSError, ValueError, re.error) as error:
+    except (OSError, ValueError) as error:
         print(sanitize(str(error)), file=sys.stderr)
         return 1
     return 0
@@ -60,6 +73,8 @@ def convert(given: argparse.Namespace) -> int:
 def _outputs(path: Path) -> list[dict[str, Any]]:
     try:
         data: Any = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise ValueError(f"{path}: {error.strerror or error}") from None
     except UNREADABLE as error:
         raise ValueError(f"{path} is not YAML: {' '.join(str(error).split())}") from None
     listed: Any = cast("dict[str, Any]", data).get("output_bags") if isinstance(data, dict) else None
@@ -67,6 +82,14 @@ def _outputs(path: Path) -> list[dict[str, Any]]:
     if not found or not all(isinstance(each, dict) and "uri" in each for each in found):
         raise ValueError(f"{path} has to list 'output_bags', each with a 'uri'")
     return found
+
+
+def _check(output: Mapping[str, Any]) -> None:
+    """Raise `ValueError` if a key that takes one of a few words has another value."""
+    for key, allowed in CHOICES.items():
+        value = str(output.get(key) or allowed[0])
+        if value.lower() not in allowed:
+            raise ValueError(f"{output['uri']}: {key} must be {' or '.join(allowed)}, not {value[:40]!r}")
 
 
 def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
@@ -78,11 +101,14 @@ def _write(bags: list[Any], output: Mapping[str, Any]) -> None:
         )
     bag = MergedBags(bags)
     wanted = wanted_topics(_filters(output), lambda _: True, lambda _: True)
+    storage, preset, compression = (
+        str(output.get(key) or CHOICES[key][0]).lower()
+        for key in ("storage_id", "storage_preset_profile", "compression_mode")
+    )
     writer = BagWriter(
         Path(str(output["uri"])),
         WritingOptions(
-            str(output.get("storage_id") or "mcap"), str(output.get("storage_preset_profile") or "none"),
-            str(output.get("compression_mode") or "none").lower(), _value(output, "max_bagfile_size", int, 0),
+            storage, preset, compression, _value(output, "max_bagfile_size", int, 0),
             _value(output, "max_bagfile_duration", float, 0.0), _value(output, "custom_data", dict, {}),
         ),
     )  # fmt: skip
@@ -120,14 +146,19 @@ def _filters(output: Mapping[str, Any]) -> argparse.Namespace:
     def several(name: str) -> list[str]:
         return [str(each) for each in _value(output, name, _as_list, [])]
 
-    patterns = {
-        name: re.compile(str(output[name])) if output.get(name) else None for name in ("regex", "exclude_regex")
-    }
+    def compiled(name: str) -> re.Pattern[str] | None:
+        text = str(output.get(name) or "")
+        try:
+            return re.compile(text) if text else None
+        except re.error as error:
+            raise ValueError(f"{output['uri']}: {name} {text!r} is not a regular expression: {error}") from None
+
+    patterns = {name: compiled(name) for name in ("regex", "exclude_regex")}
     lists = ("topics", "services", "topic_types", "exclude_topics", "exclude_topic_types", "exclude_services")
     flags = ("all", "all_topics", "all_services")
     chosen = {name: several(name) for name in lists} | {name: bool(output.get(name)) for name in flags} | patterns
     if output.get("exclude") and not patterns["exclude_regex"]:  # the name of earlier releases
-        chosen["exclude_regex"] = re.compile(str(output["exclude"]))
+        chosen["exclude_regex"] = compiled("exclude")
     anything = any(chosen[name] for name in ("topics", "services", "topic_types", "regex", *flags))
     chosen["all"] = chosen["all"] or not anything
     return argparse.Namespace(

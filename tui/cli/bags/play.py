@@ -11,7 +11,14 @@ from typing import TYPE_CHECKING, Any
 
 from bot_console.tui.cli.bags.common import generic_types, make_node, report_unused, service_types, spin
 from bot_console.tui.cli.bags.keyboard import read_keys
-from bot_console.tui.cli.bags.play_arguments import NOT_NEEDED, bag_paths, chosen_topics, end_time, play_problem
+from bot_console.tui.cli.bags.play_arguments import (
+    NOT_NEEDED,
+    bag_paths,
+    chosen_topics,
+    end_time,
+    play_problem,
+    span_problem,
+)
 from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.playing.control_topics import left_out_warning
@@ -53,7 +60,7 @@ def play(given: argparse.Namespace) -> int:
         problem = _run(node, run, stopped)
     if readable and shown:
         print(f"\r{progress_line(player)}\x1b[K", file=sys.stderr)
-    if given.wait_for_all_acked is not None:
+    if given.wait_for_all_acked is not None and node.context.ok():  # an interrupt also ends the waiting
         player.wait_for_acknowledgements(given.wait_for_all_acked)
     return _report(player, problem)
 
@@ -116,6 +123,10 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     bags = [Bag(each) for each in bag_paths(given)]
     for each in bags:
         report_repaired(each)
+    bag = MergedBags(bags)
+    if wrong := span_problem(given, *bag.span):
+        print(wrong, file=sys.stderr)
+        return 2
     overrides = given.qos_profile_overrides_path
     try:
         qos = read_overrides(overrides.read_text(encoding="utf-8")) if overrides else {}
@@ -126,7 +137,6 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
     if node is None:
         return 1
     node.get_logger().set_level(LoggingSeverity[given.log_level.upper()])
-    bag = MergedBags(bags)
     named, chosen = chosen_topics(given)
     how = PlaybackOptions(
         rate=given.rate,
@@ -142,6 +152,8 @@ def _prepare(given: argparse.Namespace) -> tuple[Node, Player] | int:
         clock_topics=None if given.clock_topics_all else given.clock_topics,
     )
     player = Player(node, bag, how, class_of, generic_types(machine=given.ros))
+    for name in player.absent:
+        node.get_logger().warning(f"Topic '{name}' is not in the bag")
     for name, why in player.unknown.items():
         node.get_logger().warning(f"Topic '{name}' is not played: {why}")
     if player.left_out:

@@ -84,14 +84,24 @@ def play_problem(given: argparse.Namespace) -> str:
     """What is wrong with the combination of options; empty if nothing is."""
     if given.bag is None and not given.input:
         return "Name a bag, or several with --input"
-    for each in given.input:
-        if len(each) > 2 or (len(each) == 2 and each[1] not in ("mcap", "sqlite3")):
-            return f"--input takes a bag and perhaps its storage, mcap or sqlite3, not '{' '.join(each)}'"
+    if wrong := input_problem(given.input):
+        return wrong
     for each in given.remap:
         if ":=" not in each:
             return f"--remap takes OLD:=NEW, not '{each}'"
     if getattr(given, "publish_service_requests", False):
         return "--publish-service-requests cannot be done here: the recorded events of services are published instead"
+    return ""
+
+
+def input_problem(inputs: list[list[str]]) -> str:
+    """What is wrong with the values of `--input`; empty if nothing is."""
+    for each in inputs:
+        if len(each) > 2 or (len(each) == 2 and each[1] not in ("mcap", "sqlite3")):
+            return (
+                f"--input takes a bag and perhaps its storage, mcap or sqlite3, not '{' '.join(each)}'; "
+                "for several bags repeat --input"
+            )
     return ""
 
 
@@ -114,6 +124,19 @@ def chosen_topics(given: argparse.Namespace) -> tuple[list[str] | None, Callable
         return bool(named) or regex is None or regex.search(topic) is not None
 
     return named or None, chosen
+
+
+def span_problem(given: argparse.Namespace, begin: int, last: int) -> str:
+    """Why the options leave nothing to play of a bag (ns since the epoch); empty if they leave something."""
+    duration = (last - begin) / 1e9
+    if given.start_offset > duration:
+        return f"--start-offset {given.start_offset:g}: the bag ends after {duration:.1f} s"
+    end = end_time(given, begin)
+    if end is not None and end < begin:
+        return (
+            f"The end that the options set is before the first message, which is at {begin / 1e9:.3f} s since the epoch"
+        )
+    return ""
 
 
 def end_time(given: argparse.Namespace, begin: int) -> int | None:

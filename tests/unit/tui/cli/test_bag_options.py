@@ -4,21 +4,25 @@ from __future__ import annotations
 
 import argparse
 import re
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from types import SimpleNamespace
 from typing import Any
 
 import pytest
 import rclpy
-from bot_console.tui.cli.bags import common
+from bot_console.tui.cli.bags import common, play
 from bot_console.tui.cli.bags.keyboard import split_keys
 from bot_console.tui.cli.bags.play_arguments import bag_paths, chosen_topics, end_time, play_problem
 from bot_console.tui.cli.bags.record_arguments import record_problem, wanted_topics
 from bot_console.tui.cli.verbs.bag import parser, run
 from bot_console.tui.commanding.command_handler import CommandHandler
+from bot_console.tui.console.bags.playing.player import Player
+from bot_console.tui.console.bags.writer import BagWriter
 from bot_console.tui.console.model import ConsoleSnapshot
 from bot_console.tui.session.machine.ros import CAPABILITIES as MACHINE
+from rclpy.serialization import serialize_message
+from std_msgs.msg import Int32
 
 pytest.importorskip("mcap")
 FILE = __file__
@@ -234,3 +238,49 @@ def test_a_console_plays_bags_into_the_system_that_it_shows(play: bool) -> None:
     )
     CommandHandler.show_bag(handler, "a_bag", play=play)
     assert [*ran[0][-4:]] == (["open", "a_bag", "--play", "--ros"] if play else ["bag", "open", "a_bag", "--ros"])
+
+
+@pytest.fixture
+def played_bag(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[str]:
+    """The folder of a bag of nine seconds, to be played in this process without a robot."""
+    writer = BagWriter(tmp_path / "bag")
+    writer.topic("/number", Int32, [])
+    for second in range(10):
+        writer.write("/number", serialize_message(Int32(data=second)), (1_700_000_000 + second) * 10**9, 0)
+    writer.close()
+    monkeypatch.setattr(common, "reach_system", lambda: "")
+    monkeypatch.setattr(Player, "await_subscriptions", lambda *_: None)
+    yield str(tmp_path / "bag")
+    rclpy.try_shutdown()
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ("--start-offset 1000", "--start-offset 1000: the bag ends after 9.0 s"),
+        ("--playback-until-sec 5", "before the first message, which is at 1700000000.000 s since the epoch"),
+    ],
+)
+def test_options_that_leave_nothing_to_play_are_refused(
+    played_bag: str, options: str, message: str, capsys: pytest.CaptureFixture[str]
+) -> None:
+    assert run(["play", played_bag, *options.split()]) == 2
+    err = capsys.readouterr().err
+    assert message in err and len(err.splitlines()) == 1
+
+
+def test_topics_that_the_bag_does_not_contain_are_named(played_bag: str, capfd: pytest.CaptureFixture[str]) -> None:
+    words = "--rate 1000 --disable-keyboard-controls --topics /number /scann --remap /odm:=/odom"
+    assert run(["play", played_bag, *words.split()]) == 0
+    shown = capfd.readouterr().err
+    assert "Topic '/scann' is not in the bag" in shown and "Topic '/odm' is not in the bag" in shown
+    assert "10 messages published" in shown and "'/number' is not" not in shown
+
+
+def test_an_interrupted_player_does_not_wait_for_acknowledgements(
+    played_bag: str, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.setattr(play, "spin", lambda *_: rclpy.shutdown())
+    words = ["--start-paused", "--disable-keyboard-controls", "--wait-for-all-acked", "0"]
+    assert run(["play", played_bag, *words]) == 0
+    assert "0 messages published" in capsys.readouterr().err

@@ -97,6 +97,8 @@ class Player:
         self._publishers: dict[str, Any] = {}
         self.unknown: dict[str, str] = {}
         self.left_out: list[str] = []
+        self.absent: list[str] = []
+        """Topics that are to be played or renamed, but are not in the bag."""
         self.published = 0
         self._choose(find, generic)
         clock_topics = how.clock_topics is None or bool(how.clock_topics)
@@ -204,6 +206,7 @@ class Player:
         how = self._how
         named = None if how.topics is None else {_absolute(each) for each in how.topics}
         remaps = {_absolute(old): new for old, new in how.remaps.items()}
+        self.absent = sorted({*(named or ()), *remaps} - self._bag.topics.keys())
         for name, topic in self._bag.topics.items():
             target = remaps.get(name, name)
             if (named is not None and name not in named) or not how.chosen(name) or (name == CLOCK and how.clock > 0):

@@ -127,6 +127,10 @@ def test_bags_are_converted(tmp_path: Path, capsys: pytest.CaptureFixture[str]) 
                 "topics": "true",
             }.items()
         ),
+        ("output_bags: [{uri: out, storage_id: rosbag}]", "out: storage_id must be mcap or sqlite3, not 'rosbag'"),
+        ("output_bags: [{uri: out, compression_mode: zip}]", "out: compression_mode must be none or file or message"),
+        ("output_bags: [{uri: out, regex: '('}]", "out: regex '(' is not a regular expression"),
+        ("output_bags: [{uri: out, exclude: '['}]", "out: exclude '[' is not a regular expression"),
     ],
 )
 def test_wrong_output_options_are_explained(
@@ -137,6 +141,16 @@ def test_wrong_output_options_are_explained(
     assert verb.run(["convert", "-i", str(tmp_path / "one"), "-o", str(tmp_path / "out.yaml")]) == 1
     err = capsys.readouterr().err
     assert message in err and len(err.splitlines()) == 1
+
+
+def test_a_missing_file_of_output_options_is_named(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert verb.run(["convert", "-i", str(tmp_path / "one"), "-o", str(tmp_path / "out.yaml")]) == 1
+    assert capsys.readouterr().err == f"{tmp_path}/out.yaml: No such file or directory\n"
+
+
+def test_two_bags_after_one_input_option_are_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert verb.run(["convert", "-i", "one", "two", "-o", str(tmp_path / "out.yaml")]) == 2
+    assert "for several bags repeat --input" in capsys.readouterr().err
 
 
 def test_info_lists_services_and_names(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
