@@ -44,6 +44,10 @@ class TurnTaker(Protocol):
         """Stop the clock until this thread first waits, or ends."""
         ...
 
+    def attach(self) -> None:
+        """Let this thread, which was considered hung, run until it waits; called by the thread that has the turn."""
+        ...
+
     def leave(self) -> None:
         """Take no more turns."""
         ...

@@ -131,6 +131,8 @@ class Member:
             self._main.post(partial(self._handle, handler, number))
         else:  # the main thread blocks in a call that the run does not see
             signal.pthread_kill(self._main.ident, number)
+            if self._main.task is not None:
+                self._main.task.attach()  # so that no time passes before it has handled the signal
 
     def _handle(self, handler: Callable[[int, Any], Any], number: int) -> None:
         if self._paused is not None:

@@ -84,6 +84,10 @@ class ScheduledTask:
         """Stop the clock until this thread first waits, or ends."""
         self.scheduler.starting.add(self)
 
+    def attach(self) -> None:
+        """Let this thread, which was considered hung, run until it waits; called by the thread that has the turn."""
+        self.scheduler.attach(self)
+
     def leave(self) -> None:
         """Leave the run and pass the turn on."""
         self.scheduler.leave(self)
@@ -179,20 +183,23 @@ class Scheduler:
                 self._enlist(task, wakeup, deadline)
             waits = self._hand_on(task)
         if waits:
-            try:
-                if task.rank != LAST:
-                    task.lock.acquire()
-                else:
-                    # A signal received by another thread does not end an `acquire` here, although its handler runs in
-                    # this thread.
-                    while not task.lock.acquire(True, SIGNAL_CHECK_S):
-                        pass
-            except BaseException:  # the handler of a real signal raised in the real main thread
-                self._reclaim(task)
-                raise
+            self._await_turn(task)
         if task.waiting:
             self._withdraw(task, wakeup)
         return task.woken or (wakeup is not None and wakeup.flag)
+
+    def _await_turn(self, task: ScheduledTask) -> None:
+        try:
+            if task.rank != LAST:
+                task.lock.acquire()
+            else:
+                # A signal received by another thread does not end an `acquire` here, although its handler runs in
+                # this thread.
+                while not task.lock.acquire(True, SIGNAL_CHECK_S):
+                    pass
+        except BaseException:  # the handler of a real signal raised in the real main thread
+            self._reclaim(task)
+            raise
 
     def _is_next(self, task: ScheduledTask, deadline: int) -> bool:
         """Whether nothing happens before, or at the same time as, the end of the current thread's wait."""
@@ -253,6 +260,21 @@ class Scheduler:
             message = note(task)
             self._grant_next()
             return message
+
+    def attach(self, task: ScheduledTask) -> None:
+        """Pass the turn to a detached thread, as something has ended the call that it blocked in.
+
+        Returns once the thread waits, or is detached again. Without effect if it has come back by itself.
+        """
+        with self._guard:
+            holder = self.holder
+            if holder is None or not task.detached:
+                return
+            task.detached = False
+            self.turns += 1
+            self._enlist(holder, None, self.now)
+            self.holder = task
+        self._await_turn(holder)
 
     def stop_waiting_for_starts(self) -> None:
         """Let time continue although some threads have not reached their first wait."""

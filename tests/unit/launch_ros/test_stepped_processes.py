@@ -352,6 +352,30 @@ def test_wait_that_the_run_does_not_see_is_named(step: Any, nodes: Any) -> None:
     assert "waits for something outside the stepped run" in done.text
 
 
+def test_signal_in_a_wait_that_the_run_does_not_see_takes_no_time(step: Any, nodes: Any) -> None:
+    waits = """\
+        import os, signal, time
+
+        def alarm(*_):
+            raise TimeoutError
+
+        signal.signal(signal.SIGALRM, alarm)
+        signal.alarm(2)
+        time.sleep(1)  # a program that blocks before its first wait is given more time
+        for _ in range(2):
+            try:
+                os.read(os.pipe()[0], 1)
+            except (TimeoutError, KeyboardInterrupt) as error:
+                print(type(error).__name__, time.time() % 1000)
+        time.sleep(1)
+        print("ended", time.time() % 1000)
+    """
+    done = step(*nodes(waits), _end_after(6.0), stall_s=STALL_S)
+    printed = [each for each in done.lines if "outside the stepped run" not in each]
+    assert printed == ["TimeoutError 2.0", "KeyboardInterrupt 6.0", "ended 7.0"]
+    assert done.exit_codes == [0] and "failed to terminate" not in done.text
+
+
 def test_stopped_process_is_named_and_the_others_go_on(step: Any, nodes: Any) -> None:
     stops = "import os, signal\nos.kill(os.getpid(), signal.SIGSTOP)"
     done = step(*nodes(stops, "import time\ntime.sleep(9)\nprint('went on')"), _end_after(10.0), stall_s=STALL_S)
