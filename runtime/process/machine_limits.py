@@ -1,8 +1,8 @@
 """Limits that the system sets for this process (`ulimit`).
 
 Soft limits are raised as far as necessary and allowed, and under a limit of the address space little is reserved.
-Native libraries abort the process, without a message of ours, if they cannot reserve memory, so the memory they need
-must be available before they are used.
+Native libraries abort the process or panic, without a message of ours, if they cannot reserve memory or open a file, so
+what they need must be available before they are used.
 """
 
 from __future__ import annotations
@@ -60,6 +60,18 @@ def require_address_space(kib: int) -> None:
     """Raise `MemoryError` unless `kib` KiB of address space are left, or a soft limit could be raised that far."""
     if hard_limit_below("RLIMIT_AS", (_address_space_kib() + kib) * 1024) is not None:
         raise MemoryError
+
+
+def require_descriptors(count: int) -> None:
+    """Raise `OSError` (`EMFILE`) unless `count` more files can be open at once."""
+    held: list[int] = []
+    try:
+        held.append(os.open(os.devnull, os.O_RDONLY))
+        while len(held) < count:
+            held.append(os.dup(held[0]))
+    finally:
+        for each in held:
+            os.close(each)
 
 
 def _address_space_kib() -> int:

@@ -94,7 +94,7 @@ def _fill_with_workspace(folder: Path) -> None:
 
 
 def _write_stubs(folder: Path, package: str, definitions: Path) -> None:
-    paths = [each for kind in KINDS for each in (definitions / kind).glob(f"*.{kind}")]
+    paths = [each for kind in KINDS for each in (definitions / kind).glob(f"*.{kind}") if each.is_file()]
     texts = {(each.suffix[1:], each.stem): each.read_text(encoding="utf-8") for each in paths}
     for name, source in package_stubs(package, texts).items():
         _write(folder / name, source)

@@ -61,9 +61,9 @@ def read_package(folder: Path) -> Package:
     build_type = (root.findtext("export/build_type") or "ament_cmake").strip()
     setup, problem = SetupFile(), ""
     try:
-        setup = read_setup_py(folder) if (folder / "setup.py").exists() else setup
-        setup = setup.merged(read_setup_cfg(folder))
-        if build_type == "ament_cmake" and (folder / "CMakeLists.txt").exists():
+        setup = read_setup_py(folder) if _is_there(folder / "setup.py") else setup
+        setup = setup.merged(read_setup_cfg(folder)) if _is_there(folder / "setup.cfg") else setup
+        if build_type == "ament_cmake" and _is_there(folder / "CMakeLists.txt"):
             setup = setup.merged(read_cmake_lists(folder))
         problem = setup.problem
     except ValueError as error:
@@ -83,6 +83,13 @@ def read_package(folder: Path) -> Package:
         MappingProxyType({key: _entry_point(text) for key, text in setup.panes.items()}),
         setup,
     )
+
+
+def _is_there(path: Path) -> bool:
+    """Whether a file is there; raises `ValueError` for anything else of its name, such as a pipe that never ends."""
+    if path.exists() and not path.is_file():
+        raise ValueError(f"{path} is not a regular file")
+    return path.is_file()
 
 
 def _entry_point(text: str) -> EntryPoint:

@@ -209,6 +209,10 @@ def test_character_missing_in_the_c_locale_is_replaced(tmp_path: Path) -> None:
             marks=pytest.mark.slow,
         ),
         ("-v 100000", ["stop"], "bot-console stop: no robot was stopped: there is too little memory"),
+        ("-n 8", ["stop"], "bot-console stop: no robot was stopped: too many files are open"),
+        pytest.param(
+            "-n 10", ["node", "list"], "too many files are open (the limit is shown by", marks=pytest.mark.slow
+        ),
         pytest.param(
             "-v 400000",
             ["--headless"],

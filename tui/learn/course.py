@@ -11,6 +11,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.learn.condition_syntax import Condition, read_condition
 from bot_console.tui.learn.grade_row import GradeRow, read_grade_row
 
@@ -118,9 +119,7 @@ def read_course(folder: Path) -> Course:
 
 def _text(path: Path) -> str:
     try:
-        if path.stat().st_size > MAX_FILE_BYTES:
-            raise CourseError(f"{path}: larger than {MAX_FILE_BYTES} bytes")
-        return path.read_text(encoding="utf-8")
+        return read_store(path, MAX_FILE_BYTES).decode("utf-8")
     except OSError as error:
         raise CourseError(f"{path}: {error.strerror}") from None
     except UnicodeDecodeError:

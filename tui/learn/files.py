@@ -10,6 +10,7 @@ from pathlib import Path
 
 from bot_console.runtime.workspace.discover import Workspace, default_folders
 from bot_console.runtime.workspace.package import Package
+from bot_console.tui.files.store_file import read_store
 
 SKIPPED = frozenset(("build", "install", "log", "__pycache__", "node_modules"))
 MAX_FILES = 5000
@@ -44,7 +45,7 @@ class WorkspaceFiles:
     def text(self, path: Path) -> str:
         """The text of a file; empty if it cannot be read or is too large."""
         try:
-            return path.read_text(encoding="utf-8", errors="replace") if path.stat().st_size <= MAX_FILE_BYTES else ""
+            return read_store(path, MAX_FILE_BYTES).decode("utf-8", "replace")
         except OSError:
             return ""
 

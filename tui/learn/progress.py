@@ -8,8 +8,10 @@ from pathlib import Path
 from typing import Any, cast
 
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 
 FOLDER = ".bot-console"
+MAX_FILE_BYTES = 1_000_000
 VERSION = 1
 
 
@@ -38,7 +40,7 @@ def read_progress(workspace: Path, course: str) -> Progress:
     path = workspace / FOLDER / f"{course}.json"
     progress = Progress(path)
     try:
-        found: Any = json.loads(path.read_text(encoding="utf-8"))
+        found: Any = json.loads(read_store(path, MAX_FILE_BYTES))
         if found["version"] != VERSION:
             raise ValueError(f"version {found['version']} is not {VERSION}")
         for step, texts in cast("dict[str, Any]", found["held"]).items():

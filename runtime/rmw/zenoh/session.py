@@ -17,7 +17,7 @@ import time
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import TYPE_CHECKING, Any
 
-from bot_console.runtime.process.machine_limits import require_address_space
+from bot_console.runtime.process.machine_limits import require_address_space, require_descriptors
 from bot_console.runtime.rmw.qos_matching import DDS, QosRules
 from bot_console.runtime.rmw.zenoh.channel_worker import MAX_WAITING_SAMPLES, drain_in_worker
 from bot_console.runtime.rmw.zenoh.congestion_control import BLOCKING_PRIORITY, MESSAGE_PRIORITY, REQUEST_PRIORITY
@@ -46,6 +46,8 @@ ADDRESS_SPACE_KIB = 100_000
 """The address space that Zenoh and its threads reserve (55,000 KiB), and as much again temporarily. Zenoh aborts the
 process if it cannot get it.
 """
+DESCRIPTORS = 8
+"""The file descriptors that a session without links needs. Zenoh panics if it cannot get them."""
 
 
 class SessionError(RuntimeError):
@@ -92,9 +94,11 @@ class Session(Lifetime):
     def _open(self, settings: Mapping[str, object], file: str = "", last: Iterable[tuple[str, str]] = ()) -> None:
         """Open with these settings, which override those of `file` if given; `last` (path, JSON5) overrides both.
 
-        Raises `SettingsError`, `SessionError`, and `MemoryError` if Zenoh would not fit into the address space.
+        Raises `SettingsError`, `SessionError`, `MemoryError` if Zenoh would not fit into the address space, and
+        `OSError` if it could not open the files that it needs.
         """
         require_address_space(ADDRESS_SPACE_KIB)
+        require_descriptors(DESCRIPTORS)
         import zenoh
 
         try:

@@ -18,6 +18,7 @@ from bot_console.runtime.process.machine_limits import (
     ARENAS_VARIABLE,
     BLAS_VARIABLE,
     require_address_space,
+    require_descriptors,
     reserve_little_address_space,
 )
 
@@ -67,6 +68,20 @@ def test_soft_limit_is_raised_for_a_session(limits: dict[int, tuple[int, int]]) 
     limits[resource.RLIMIT_AS] = (50_000 * 1024, resource.RLIM_INFINITY)
     require_address_space(100_000)
     assert limits[resource.RLIMIT_AS] == (130_000 * 1024, resource.RLIM_INFINITY)
+
+
+def test_session_that_lacks_file_descriptors_is_refused_before_zenoh_panics() -> None:
+    free = os.open(os.devnull, os.O_RDONLY)
+    os.close(free)
+    before = resource.getrlimit(resource.RLIMIT_NOFILE)
+    resource.setrlimit(resource.RLIMIT_NOFILE, (free + 4, before[1]))
+    try:
+        require_descriptors(4)
+        with pytest.raises(OSError, match="Too many open files"):
+            require_descriptors(5)
+        require_descriptors(4)  # nothing was left open
+    finally:
+        resource.setrlimit(resource.RLIMIT_NOFILE, before)
 
 
 def test_environment_of_children_is_unchanged_without_a_limit(

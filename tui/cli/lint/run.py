@@ -131,7 +131,8 @@ def files_of(what: str) -> list[Path]:
     return sorted(
         each
         for each in path.rglob("*")
-        if (each.suffix in (".py", ".yaml", ".yml") or each.name.endswith(XML_LAUNCH))
+        if each.is_file()  # a pipe would never end
+        and (each.suffix in (".py", ".yaml", ".yml") or each.name.endswith(XML_LAUNCH))
         and "test" not in each.parts
         and not any(part.startswith(".") for part in each.relative_to(path).parts)  # hidden folders such as `.venv`
     )

@@ -27,6 +27,7 @@ from bot_console.tui.cli.verbs.router import add_serving_options, exposure_warni
 from bot_console.tui.cli.verbs.stop import holders
 from bot_console.tui.files.folders import OVERRIDE, state_folder
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.session.embedded.domain import (
     domain,
     frozen,
@@ -47,6 +48,7 @@ from bot_console.tui.text.sanitize import sanitize
 
 SYSTEM_MODULE = "bot_console.tui.session.background_system"
 """The module that runs as the program of a background system."""
+MAX_FILE_BYTES = 1_000_000
 START_TIMEOUT_S = 60.0
 """Seconds that its nodes may take to become visible on a busy machine."""
 END_TIMEOUT_S = 15.0
@@ -368,7 +370,7 @@ def _running_system() -> Background | None:
 
 def _read(file: Path) -> Background | None:
     try:
-        found = json.loads(file.read_text(encoding="utf-8"))
+        found = json.loads(read_store(file, MAX_FILE_BYTES))
         words = tuple(str(each) for each in found["words"])
         return Background(int(found["pid"]), words, str(found["log"]), int(found.get("way_in", 0)))
     except (OSError, ValueError, KeyError, TypeError, AttributeError, OverflowError, RecursionError):

@@ -14,9 +14,11 @@ from bot_console.runtime.workspace.program import source_folders
 from bot_console.tui import __version__
 from bot_console.tui.files.jsonc import JsoncError, with_member, with_strings
 from bot_console.tui.files.save_file import NotSaved, save_file
+from bot_console.tui.files.store_file import read_store
 from bot_console.tui.session.embedded.workspaces import choose
 
 PYRIGHT, VSCODE = "pyrightconfig.json", ".vscode/settings.json"
+MAX_FILE_BYTES = 10_000_000
 
 
 def run(words: Sequence[str]) -> int:
@@ -87,7 +89,7 @@ def _new_pyright(folder: Path, text: str) -> str:
 
 def _read(place: Path) -> str:
     try:
-        return place.read_text(encoding="utf-8")
+        return read_store(place, MAX_FILE_BYTES).decode("utf-8")
     except FileNotFoundError:
         return ""
     except (OSError, UnicodeDecodeError) as error:

@@ -26,6 +26,7 @@ from bot_console.tui.console.topics.port import (
     Values,
 )
 from bot_console.tui.console.topics.rate_checks import RateChecks
+from bot_console.tui.files.folders import expanded_path
 
 if TYPE_CHECKING:
     from bot_console.tui.console.calls import Calls
@@ -120,6 +121,9 @@ class NodeTopics:
         """Check topics against the rates and ages in a file."""
         from bot_console.tui.console.graph.expected import read_file
 
+        place = expanded_path(path)
+        if place.exists() and not place.is_file():
+            return Answer(False, f"{path} cannot be used: it is not a regular file")  # a pipe would stop the console
         try:
             found = read_file(path).measured if path.strip() else {}
         except ValueError as error:

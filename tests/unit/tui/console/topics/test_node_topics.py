@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import os
 import threading
 from collections.abc import Iterator
+from pathlib import Path
 
 import pytest
 import rclpy
@@ -177,3 +179,10 @@ def test_before_the_console_is_connected_everything_is_refused_with_a_reason() -
     idle = RosConsole().topics
     assert "still connecting" in idle.heard().problem and not idle.publish("/t", TWIST, {}).ok
     assert not idle.call("/s", SET_BOOL, {}).result(0).ok and not idle.measured() and not idle.cancel("/a").ok
+
+
+@pytest.mark.skipif(os.name == "nt", reason="needs named pipes")
+def test_pipe_in_the_place_of_expected_rates_is_refused(console: RosConsole, tmp_path: Path) -> None:
+    os.mkfifo(tmp_path / "rates.yaml")
+    answer = console.topics.expect(str(tmp_path / "rates.yaml"))
+    assert not answer.ok and answer.text.endswith("it is not a regular file")
