@@ -106,7 +106,7 @@ def test_steps_and_seeking_move_the_cursor_of_all_panes(bag: Bag) -> None:
         assert app.time_cursor.stamp is None and not published.topics, "nothing is played without a request"
         await pilot.press("number_sign")
         assert published.next() == 0
-        assert "⏸ paused   0.0 / 10.0 s  ×1  1 messages" in player_message(app) and app.time_cursor.stamp == BEGIN
+        assert "⏸ paused   0.0 / 10.0 s  ×1  1 message " in player_message(app) and app.time_cursor.stamp == BEGIN
         await pilot.press("right_parenthesis")
         assert app.time_cursor.stamp == BEGIN + 5 * SECOND
         await pilot.press("number_sign")

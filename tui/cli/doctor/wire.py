@@ -23,6 +23,7 @@ from bot_console.runtime.rmw.zenoh.wire.tokens import (
 )
 from bot_console.tui.cli.doctor.clock import clock_findings
 from bot_console.tui.cli.doctor.finding import DoctorFinding, Level
+from bot_console.tui.text.counted import counted
 
 MAX_ATTACHMENTS_PER_KEY = 3
 """Maximum number of attachments that are kept per key."""
@@ -100,9 +101,8 @@ def wire_findings(wire: Wire, delay: float) -> list[DoctorFinding]:
     """The faults on the wire; `delay` (s) is the round-trip time of the link."""
     good, bad = wire.parsed()
     nodes = sum(each.kind == "NN" for each in good)
-    findings = [
-        DoctorFinding(Level.OK if nodes else Level.WARN, "graph", f"{nodes} nodes, {len(good) - nodes} endpoints")
-    ]
+    text = f"{counted(nodes, 'node')}, {counted(len(good) - nodes, 'endpoint')}"
+    findings = [DoctorFinding(Level.OK if nodes else Level.WARN, "graph", text)]
     if wire.domains_with_nodes:
         hint = "consoles and other tools do not count"
         findings = [DoctorFinding(Level.WARN, "graph", wire.domains_with_nodes, hint)]

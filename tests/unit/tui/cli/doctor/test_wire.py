@@ -131,4 +131,4 @@ def test_nodes_in_another_domain_are_reported_with_the_domain_to_start_in(place,
         wire = watch_wire(session, 0.0)
         session.close()
         level = Level.WARN if found else Level.OK
-        assert levels(wire, "graph") == [(level, found or "1 nodes, 0 endpoints")]
+        assert levels(wire, "graph") == [(level, found or "1 node, 0 endpoints")]
