@@ -50,7 +50,7 @@ _EARLIER = """
 SELECT stamp, node, name, old, new, source, accepted, reason, part_of, run FROM changes AS one
 WHERE run <> ? AND NOT (source = 'elsewhere' AND EXISTS (
     SELECT 1 FROM changes AS other WHERE other.node = one.node AND other.name = one.name AND other.new = one.new
-    AND other.source <> 'elsewhere' AND other.stamp BETWEEN one.stamp - ? AND one.stamp + ?
+    AND (other.source <> 'elsewhere' OR other.run < one.run) AND other.stamp BETWEEN one.stamp - ? AND one.stamp + ?
 ))
 ORDER BY number DESC LIMIT ?
 """
@@ -144,7 +144,8 @@ class History:
     def earlier(self, maximum: int) -> Sequence[Change]:
         """The newest changes of other runs, oldest first and numbered up to -1; unreadable rows are left out.
 
-        If two consoles recorded the same change, only the row of the console that made it is returned.
+        If several consoles recorded the same change, only the row of the console that made it is returned; if another
+        program made it, that of the console that started first.
         """
         found: list[Change] = []
         unreadable, ended = 0, ""

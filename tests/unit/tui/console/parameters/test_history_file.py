@@ -97,6 +97,17 @@ def test_a_change_recorded_by_two_consoles_appears_once_as_that_of_its_maker(tmp
         each.close()
 
 
+def test_a_change_of_another_program_recorded_by_two_consoles_appears_once(tmp_path: Path) -> None:
+    consoles = History(tmp_path / "h", 1), History(tmp_path / "h", 2)
+    for second in (10, 11, 20):  # the same value twice within the time in which equal changes count as one
+        for each in consoles:
+            each.add(change(second, source=ChangeSource.OTHER))
+    consoles[1].add(change(30, source=ChangeSource.OTHER))
+    assert [each.stamp // SECOND for each in earlier_changes(tmp_path / "h")] == [10, 11, 20, 30]
+    for each in consoles:
+        each.close()
+
+
 def test_a_file_that_is_not_a_database_is_moved_aside_and_reported(tmp_path: Path) -> None:
     file = tmp_path / "history.sqlite"
     file.write_bytes(b"not a database at all, and longer than a header of SQLite is. " * 40)
