@@ -25,7 +25,7 @@ from bot_console.runtime.process.scratch import scratch
 PACKAGE = Path(__file__).absolute().parents[1]
 SHIMS = Path(__file__).absolute().parent / "shims"
 SHIM = "shim.py"
-BESIDE = ("bot_console_shims.py", "sitecustomize.py", "bot_console_pytest.py")
+BESIDE = ("bot_console_shims.py", "sitecustomize.py", "bot_console_pytest.py", "bot_console_launch_tests.py")
 INSTALLATION = "bot_console_installation.py"
 DEPENDENCIES = ("numpy", "yaml", "zenoh", "xxhash", "pymunk", "platformdirs")
 """The packages that the runtime depends on, by their import names; another interpreter may have none of them."""

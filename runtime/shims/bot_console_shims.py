@@ -63,8 +63,12 @@ def _decide(name):
     return _choices[0]
 
 
+def _real_precedes():
+    return sys.version_info[0] > 2 and os.environ.get(RUNTIME_VARIABLE) != EMBEDDED and bool(real_rclpy())
+
+
 def _chosen(name):
-    if sys.version_info[0] > 2 and os.environ.get(RUNTIME_VARIABLE) != EMBEDDED and real_rclpy():
+    if _real_precedes():
         sys.path[:] = [each for each in sys.path if not is_shim_folder(each)]
         return REAL
     installed = __import__("bot_console_installation")
@@ -114,6 +118,40 @@ def watch():
     if not any(isinstance(each, _WorkspaceFinder) for each in sys.meta_path):
         sys.meta_path.insert(0, _WorkspaceFinder(_is_package_folder))
         sys.meta_path.append(_WorkspaceFinder(_may_be_in_workspace))
+        sys.meta_path.append(_PluginFinder())
+
+
+class _PluginFinder:
+    """Lets pytest find our plug-in for launch tests. As it is in no folder, pip does not list it."""
+
+    def find_spec(self, name, path=None, target=None):
+        """Find no modules."""
+
+    def find_distributions(self, context=None):
+        """Return the distribution with the plug-in, for a search through all of the path; a real ROS 2 has its own."""
+        everything = context is None or (context.name is None and context.path is sys.path)
+        if everything and not _real_precedes():
+            yield _plugin_distribution()
+
+
+def _plugin_distribution():
+    from importlib.metadata import Distribution
+    from pathlib import Path
+
+    class Plugin(Distribution):
+        def read_text(self, filename):
+            return _PLUGIN_FILES.get(filename)
+
+        def locate_file(self, path):
+            return Path(path)
+
+    return Plugin()
+
+
+_PLUGIN_FILES = {
+    "METADATA": "Metadata-Version: 2.1\nName: bot-console-launch-tests\nVersion: 1\n",
+    "entry_points.txt": "[pytest11]\nbot_console_launch_tests = bot_console_launch_tests\n",
+}
 
 
 class _WorkspaceFinder:

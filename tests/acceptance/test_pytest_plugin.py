@@ -86,6 +86,39 @@ def test_child_is_heard(ros_domain, node):
     child.kill()
     child.wait()
 """
+LAUNCHES = {
+    "test_with_unittest.py": """
+import sys, unittest
+import launch, launch_testing, launch_testing.actions, pytest
+from launch.actions import ExecuteProcess
+
+@pytest.mark.launch_test
+def generate_test_description():
+    program = ExecuteProcess(cmd=[sys.executable, "-c", "print('one')"])
+    return launch.LaunchDescription([program, launch_testing.actions.ReadyToTest()]), {"program": program}
+
+class TestProgram(unittest.TestCase):
+    def test_prints(self, proc_output, program):
+        proc_output.assertWaitFor("one", process=program, timeout=240, stream="stdout")
+""",
+    "test_with_pytest.py": """
+import sys
+import launch, launch_pytest, pytest
+from launch.actions import ExecuteProcess
+from launch_pytest.tools import process
+
+PROGRAM = ExecuteProcess(cmd=[sys.executable, "-c", "print('two')"], cached_output=True)
+
+@launch_pytest.fixture
+def description():
+    return launch.LaunchDescription([PROGRAM, launch_pytest.actions.ReadyToTest()])
+
+@pytest.mark.launch(fixture=description)
+async def test_prints(launch_context):
+    assert await process.wait_for_output(launch_context, PROGRAM, lambda text: "two" in text, timeout=240)
+""",
+    "test_unrelated.py": "def test_addition():\n    assert 1 + 1 == 2\n",
+}
 
 
 @pytest.fixture(scope="module")
@@ -93,9 +126,12 @@ def home(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return make_home(tmp_path_factory.mktemp("home"))
 
 
-def start(words: tuple[str, ...], folder: Path, env: Mapping[str, str]) -> subprocess.Popen[str]:
+def start(
+    words: tuple[str, ...], folder: Path, env: Mapping[str, str], *, autoload: bool = False
+) -> subprocess.Popen[str]:
     line = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *words]
-    env = {**env, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # those of the tests' own environment take a second to import
+    if not autoload:  # the plug-ins of the tests' own environment take a second to import
+        env = {**env, "PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}
     return subprocess.Popen(line, cwd=folder, env=env, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True)
 
 
@@ -125,12 +161,46 @@ def test_tests_run_in_real_and_stepped_time(home: Path, tmp_path: Path) -> None:
     assert "2 passed" in process.communicate(timeout=240)[0]
 
 
-def test_plugin_is_refused_beside_a_real_rclpy(home: Path, tmp_path: Path) -> None:
-    (tmp_path / "ros" / "rclpy").mkdir(parents=True)
-    (tmp_path / "ros" / "rclpy" / "__init__.py").touch()
+@pytest.mark.slow
+def test_plain_pytest_runs_launch_tests_in_a_shell_that_was_set_up(home: Path, tmp_path: Path) -> None:
+    for name, text in LAUNCHES.items():
+        (tmp_path / name).write_text(text)
+    process = start(("-p", "no:xdist", "-s", "--launch-args", "a:=b"), tmp_path, set_up(home), autoload=True)
+    output = process.communicate(timeout=240)[0]
+    assert "3 passed" in output, output
+
+
+def test_other_tests_load_nothing_of_the_runtime_in_such_a_shell(home: Path, tmp_path: Path) -> None:
+    text = "import sys\ndef test_modules():\n    assert 'bot_console.runtime' not in sys.modules\n"
+    (tmp_path / "test_modules.py").write_text(text)
+    process = start(("-p", "bot_console_launch_tests"), tmp_path, set_up(home))
+    assert "1 passed" in process.communicate(timeout=240)[0]
+
+
+@pytest.mark.slow
+def test_pip_does_not_list_the_plugin(home: Path) -> None:
+    listed = subprocess.run(
+        [sys.executable, "-m", "pip", "freeze"], env=set_up(home), capture_output=True, text=True, check=True
+    )
+    assert "launch" not in listed.stdout
+
+
+def beside_a_real_rclpy(home: Path, folder: Path) -> dict[str, str]:
+    (folder / "ros" / "rclpy").mkdir(parents=True)
+    (folder / "ros" / "rclpy" / "__init__.py").touch()
     env = set_up(home)
-    path = os.pathsep.join([str(tmp_path / "ros"), env["PYTHONPATH"]])
-    process = start(PLUGIN, tmp_path, {**env, "PYTHONPATH": path})
+    return {**env, "PYTHONPATH": os.pathsep.join([str(folder / "ros"), env["PYTHONPATH"]])}
+
+
+def test_launch_tests_beside_a_real_rclpy_are_left_to_it(home: Path, tmp_path: Path) -> None:
+    asks = "import importlib.metadata as m; print([e.name for e in m.entry_points(group='pytest11')])"
+    for env, found in ((set_up(home), True), (beside_a_real_rclpy(home, tmp_path), False)):
+        printed = subprocess.run([sys.executable, "-c", asks], env=env, capture_output=True, text=True, check=True)
+        assert ("bot_console_launch_tests" in printed.stdout) == found
+
+
+def test_plugin_is_refused_beside_a_real_rclpy(home: Path, tmp_path: Path) -> None:
+    process = start(PLUGIN, tmp_path, beside_a_real_rclpy(home, tmp_path))
     assert "set BOT_CONSOLE_RUNTIME=embedded" in process.communicate(timeout=240)[1]
 
 

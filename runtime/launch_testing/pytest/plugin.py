@@ -66,11 +66,6 @@ def pytest_pycollect_makemodule(module_path: Path, parent: object) -> Any:
     return module if any(each.name in ("launch_test", "rostest") for each in marks) else None
 
 
-def pytest_addoption(parser: Any) -> None:
-    """Add the option `--launch-args`."""
-    parser.addoption("--launch-args", action="append", nargs="*", default=[], help="One or more Launch test arguments")
-
-
 def pytest_configure(config: Any) -> None:
     """Register the marker."""
     text = "mark a generate_test_description function as a launch test entrypoint"

@@ -11,7 +11,11 @@ from bot_console.runtime.shim_folder import shim_folder
 from bot_console.tui.cli.machine_limits import no_node_here
 from bot_console.tui.session.embedded.domain import take_part
 
-PLUGINS = ("-p", "launch_testing.pytest.plugin", "-p", "launch_pytest.plugin")
+PLUGINS = [
+    word
+    for name in ("bot_console_launch_tests", "launch_testing.pytest.plugin", "launch_pytest.plugin")
+    for word in ("-p", name)
+]
 NO_PYTEST = "bot-console test runs pytest, which is not installed: pip install 'bot-console[test]'"
 
 
