@@ -9,8 +9,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator, Sequence
 from itertools import pairwise
 
-from textual._compositor import ChopsUpdate, Compositor, LayoutUpdate
-from textual.geometry import Region
+from textual._compositor import ChopsUpdate, Compositor, CompositorMap, LayoutUpdate, ReflowResult
+from textual.geometry import Region, Size
 from textual.strip import Strip
 from textual.widget import Widget
 
@@ -20,6 +20,21 @@ Pieces = dict[int, dict[int, int]]
 
 class PartwiseCompositor(Compositor):
     """Composes only the changed parts of lines, from the visible parts of the widgets there."""
+
+    _laid_out: CompositorMap | None = None
+    """The places that the widgets were told at the last layout."""
+
+    def reflow(self, parent: Widget, size: Size) -> ReflowResult:
+        """Lay out the widgets; what has changed is seen from the last layout.
+
+        Textual compares with the places that it has looked up since, for instance to draw something else before the
+        layout: a widget that has just been shown would not be told its size, and one that it moves would not be drawn.
+        """
+        if self._laid_out is not None:
+            self._full_map = self._laid_out
+        result = super().reflow(parent, size)
+        self._laid_out = self._full_map
+        return result
 
     def render_partial_update(self) -> ChopsUpdate | None:
         """The update with what has changed since the last one; None if nothing has."""

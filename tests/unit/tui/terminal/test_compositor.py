@@ -129,3 +129,24 @@ def test_nothing_is_drawn_if_nothing_changed() -> None:
             assert compositor.render_partial_update() is None
 
     asyncio.run(main())
+
+
+@pytest.mark.parametrize("drawn_before", [False, True])
+def test_the_layout_notices_a_widget_that_is_shown_even_if_something_was_drawn_before(drawn_before: bool) -> None:
+    async def play() -> None:
+        app = Panes()
+        async with app.run_test(size=(WIDTH, HEIGHT)) as pilot:
+            foot, panes = app.query_one("#foot"), app.query_one("Horizontal")
+            foot.display = False
+            await pilot.pause()
+            compositor = app.screen._compositor
+            compositor.render_full_update()
+            foot.display = True
+            if drawn_before:
+                compositor.update_widgets({foot})
+                assert foot in compositor.full_map
+            found = compositor.reflow(app.screen, app.size)
+            assert foot in found.shown and panes in found.resized, "both are told their sizes"
+            assert any(each.overlaps(panes.region) for each in compositor._dirty_regions), "and both are drawn"
+
+    asyncio.run(play())
