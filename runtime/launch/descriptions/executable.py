@@ -9,6 +9,7 @@ import shlex
 from collections.abc import Iterable, Iterator, Mapping
 from typing import TYPE_CHECKING
 
+import launch.logging
 from bot_console.runtime.process import ProcessLocal
 from launch.substitution import Substitution
 from launch.substitutions.launch_configuration import LaunchConfiguration
@@ -19,6 +20,14 @@ if TYPE_CHECKING:
     from launch.some_substitutions_type import SomeSubstitutionsType
 
 _numbers: ProcessLocal[Iterator[int]] = ProcessLocal(lambda: itertools.count(1))
+
+
+def warn_of_text(parameter: str, words: object) -> None:
+    """Warn of a text in the place of a list of words: as upstream, each of its letters is one word."""
+    if isinstance(words, str) and len(words) > 1:
+        launch.logging.get_logger("launch").warning(
+            f"{parameter}={words!r} is read letter by letter: give a list of words, {parameter}={words.split()!r}"
+        )
 
 
 class Executable:
@@ -35,6 +44,8 @@ class Executable:
         additional_env: Mapping[SomeSubstitutionsType, SomeSubstitutionsType] | None = None,
         arguments: Iterable[SomeSubstitutionsType] | None = None,
     ) -> None:
+        warn_of_text("cmd", cmd)
+        warn_of_text("arguments", arguments)
         self.__cmd = [normalize_to_list_of_substitutions(each) for each in cmd]
         self.__cmd += [normalize_to_list_of_substitutions(each) for each in arguments or ()]
         self.__own_prefix = prefix is not None

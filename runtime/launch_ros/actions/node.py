@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, cast
 import launch.logging
 from launch.actions import ExecuteProcess
 from launch.child import PythonProgram
+from launch.descriptions.executable import warn_of_text
 from launch.frontend import expose_action
 from launch.substitutions import LocalSubstitution, TextSubstitution
 from launch.utilities import ensure_argument_type, normalize_to_list_of_substitutions, perform_substitutions
@@ -67,6 +68,7 @@ class Node(ExecuteProcess):
         cmd: list[SomeSubstitutionsType] = [
             executable if package is None else ExecutableInPackage(package=package, executable=executable)
         ]
+        warn_of_text("arguments", arguments)
         cmd += [] if arguments is None else arguments
         if ros_arguments is not None:
             given: Any = ros_arguments

@@ -32,7 +32,7 @@ from launch.substitutions import LaunchConfiguration, LocalSubstitution
 from launching import Launch, Outcome
 from sampling import slow_after
 
-from launch import Event, EventHandler, LaunchDescription, LaunchService
+from launch import Event, EventHandler, LaunchContext, LaunchDescription, LaunchService
 
 
 def python(code: str, **options: Any) -> ExecuteProcess:
@@ -172,9 +172,15 @@ def test_reexecuting_a_running_action_keeps_its_process(run: Launch, again: str,
     assert process.process_details is not None and process.process_details["pid"] == ended[0]
 
 
-def test_command_given_as_text_is_split_into_characters(run: Launch) -> None:
-    process = ExecuteProcess(cmd="/x y")
-    assert [each[0].describe() for each in process.cmd] == ["'/'", "'x'", "' '", "'y'"]
+def test_command_given_as_text_is_split_into_characters_with_a_warning(run: Launch) -> None:
+    made: list[ExecuteProcess] = []
+
+    def make(context: LaunchContext) -> None:
+        made.append(ExecuteProcess(cmd="/x y"))
+
+    outcome = run([OpaqueFunction(function=make)])
+    assert [each[0].describe() for each in made[0].cmd] == ["'/'", "'x'", "' '", "'y'"]
+    assert "cmd='/x y' is read letter by letter: give a list of words, cmd=['/x', 'y']" in outcome.text
 
 
 def test_launch_prefix_filter_limits_the_prefix(run: Launch) -> None:

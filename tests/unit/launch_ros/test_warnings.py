@@ -7,14 +7,20 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from launch.actions import DeclareLaunchArgument, GroupAction, IncludeLaunchDescription, SetLaunchConfiguration
+from launch.actions import (
+    DeclareLaunchArgument,
+    GroupAction,
+    IncludeLaunchDescription,
+    OpaqueFunction,
+    SetLaunchConfiguration,
+)
 from launch.substitutions import LaunchConfiguration
 from launch.undeclared_arguments import WarnOfUndeclaredArguments
 from launch_ros.actions import Node, SetParameter
 from launch_ros.parameter_warnings import changes_in_file, changes_in_yaml
 from launching import Launch, Outcome
 
-from launch import LaunchDescription
+from launch import LaunchContext, LaunchDescription
 
 
 def warnings(outcome: Outcome) -> list[str]:
@@ -122,6 +128,14 @@ def test_set_parameter_values_whose_type_changes_are_warned_about(run: Launch) -
         "a: the string '5' arrives as the integer 5",
         "b: a list set for all nodes arrives as the string '(1, 2)'",
     ]
+
+
+def test_arguments_given_as_text_are_warned_about(run: Launch) -> None:
+    def make(context: LaunchContext) -> None:
+        Node(package="demo_nodes_py", executable="talker", arguments="-p x")
+
+    text = run([OpaqueFunction(function=make)]).text
+    assert "arguments='-p x' is read letter by letter: give a list of words, arguments=['-p', 'x']" in text
 
 
 def test_duplicate_names_without_namespace_are_warned_about(run: Launch) -> None:
