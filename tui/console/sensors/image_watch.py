@@ -27,7 +27,8 @@ class ImageWatch(FollowedTopic):
     def __init__(self, node: Node) -> None:
         super().__init__(node)
         self._size = (0, 0)
-        self._newest: tuple[int, Any] = (0, None)
+        self._newest: tuple[str, int, Any] = ("", 0, None)
+        """The topic of the newest message, its number, and the message; one value, as two threads use it."""
         self._made: tuple[object, Picture] = (None, Picture())
 
     def watch_image(self, topic: str, columns: int, rows: int, graph: GraphInfo) -> None:
@@ -35,7 +36,7 @@ class ImageWatch(FollowedTopic):
         self._size = (columns, rows)
         if topic != self._topic:
             self._detach()
-            self._topic, self._newest, self._problem = topic, (0, None), ""
+            self._topic, self._newest, self._problem = topic, (topic, 0, None), ""
         self.follow(graph)
 
     def _class(self, kind: str) -> type:
@@ -48,27 +49,28 @@ class ImageWatch(FollowedTopic):
         return QoSProfile(depth=1, reliability=wide.reliability, durability=wide.durability)
 
     def _take(self, message: Any) -> None:
-        self._newest = (self._newest[0] + 1, message)
+        topic, count, _ = self._newest
+        self._newest = (topic, count + 1, message)
 
     def picture(self) -> Picture:
         """The newest image, from any thread; the same object until there is another or another size is requested."""
-        count, message = self._newest
-        key = (self._topic, count, self._size, self._problem)
+        topic, count, message = self._newest
+        key = (topic, count, self._size, self._problem)
         if self._made[0] != key:
-            self._made = (key, self._picture(count, message))
+            self._made = (key, self._picture(topic, count, message))
         return self._made[1]
 
-    def _picture(self, count: int, message: Any) -> Picture:
+    def _picture(self, topic: str, count: int, message: Any) -> Picture:
         if message is None:
-            return Picture(self._topic, problem=self._problem)
+            return Picture(topic, problem=self._problem)
         began = time.monotonic()
         try:
             width, height, encoding, shown, output = _convert(message, *self._size)
         except ValueError as error:
-            return Picture(self._topic, count=count, problem=str(error))
+            return Picture(topic, count=count, problem=str(error))
         rows, columns = shown.shape[:2]
         return Picture(
-            self._topic,
+            topic,
             count,
             width,
             height,

@@ -40,7 +40,12 @@ class FollowedTopic:
             self._problem = str(error)
             return
         self._problem, self._type, self._offer = "", types[0], offer.key
-        self._subscription = self._node.create_subscription(kind, topic, self._take, self._profile(offer))
+
+        def take(message: Any) -> None:
+            if topic == self._topic:  # else it was on its way when another topic was chosen
+                self._take(message)
+
+        self._subscription = self._node.create_subscription(kind, topic, take, self._profile(offer))
 
     def _class(self, kind: str) -> type:
         """The message class of a type; raises `ValueError` with a message for the user if it cannot be used."""
