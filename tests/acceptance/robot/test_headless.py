@@ -146,6 +146,14 @@ def test_program_that_never_ends_is_killed_by_its_launch(tmp_path):
     assert "exit code -9" in report["log"]
 
 
+@pytest.mark.slow
+def test_run_whose_navigator_has_died_reports_it_and_fails(tmp_path):
+    (tmp_path / "dies.py").write_text("raise SystemExit(3)\n")
+    done = run_cli("navigator:=dies.py", "--headless", "--fast", "--duration", "2", cwd=tmp_path)
+    assert done.returncode == 1 and json.loads(done.stdout)["distance"] == 0.0
+    assert done.stderr.splitlines()[-1].startswith("dies.py-6 ended with exit code 3, so the report")
+
+
 @pytest.mark.parametrize("content", ["simulator:\n  ros__parameters:\n    world: 5\n", "a: [\n"], ids=["value", "YAML"])
 def test_parameters_that_end_the_simulator_end_the_run_at_once(tmp_path, content):
     (tmp_path / "bad.yaml").write_text(content)

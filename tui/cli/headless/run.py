@@ -57,7 +57,7 @@ START_TIMEOUT_S = 60.0
 
 
 def run(options: Options) -> int:
-    """Run the system for a while and print the report; returns 1 if there is nothing to report."""
+    """Run the system for a while and print the report; returns 1 without a report, or if a process has died."""
     options, problem = with_launch_file(options)
     if problem := unusable_domain() or no_robot_here() or problem:
         print(problem, file=sys.stderr)
@@ -69,7 +69,11 @@ def run(options: Options) -> int:
         _join_domain(options)
     report, observer, launches = run_simulation(options)
     print(json.dumps(report, indent=2))
-    return 0 if observer.complete else _no_report(launches)
+    if not observer.complete:
+        return _no_report(launches)
+    if launches.died:
+        print(f"{launches.died}, so the report may not be that of a whole run; the log above says more", file=sys.stderr)
+    return 1 if launches.died else 0
 
 
 class RunTask(Protocol):
