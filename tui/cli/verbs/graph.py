@@ -25,7 +25,6 @@ PARAMETERS_TIMEOUT_S = 15.0
 """Seconds to wait for the parameters of all nodes."""
 GRAPH_SETTLED_S = 1.0
 """Seconds without a change after which the graph counts as known."""
-GRAPH_POLL_S = 0.1
 
 EPILOG = """exit codes: 0 as expected or nothing wrong, 1 differences or findings, 2 wrong usage or an unreadable file
 
@@ -112,12 +111,14 @@ def lines_of(info: GraphInfo, hides: Iterable[str]) -> Iterator[str]:
 
 
 def _compare(console: RosConsole, expected: ExpectedGraph, given: argparse.Namespace) -> int:
-    """Wait until the graph matches, then measure rates; print each difference and return the exit code."""
-    deadline = time.monotonic() + given.wait
-    found = differences(expected, console.snapshot().graph)
-    while found and time.monotonic() < deadline:
-        time.sleep(GRAPH_POLL_S)
-        found = differences(expected, console.snapshot().graph)
+    """Wait until the graph matches, then measure rates; print each difference and return the exit code.
+
+    A graph that still changes does not match yet: what must not exist may not have been discovered.
+    """
+    info = wait_until_settled(
+        lambda: console.snapshot().graph, lambda info: not differences(expected, info), GRAPH_SETTLED_S, given.wait
+    )
+    found = differences(expected, info)
     if not found and expected.measured:
         measured = _measured(console, list(expected.measured), given.measure)
         found = differences(expected, console.snapshot().graph, measured)

@@ -12,7 +12,7 @@ from bot_console.tui.console.bags.damage import BagError
 from bot_console.tui.console.bags.definitions import class_of
 from bot_console.tui.console.bags.reader import Bag
 from bot_console.tui.console.logs.store import LogStore
-from bot_console.tui.console.model import Change, ChangeSource, ParameterInfo, ParameterTree
+from bot_console.tui.console.model import Change, ChangeSource, NodeInfo, ParameterInfo, ParameterTree
 from bot_console.tui.console.robot.past_poses import PastPoses
 from bot_console.tui.console.robot.pose_and_trail import (
     MAX_TRAIL_POINTS,
@@ -118,6 +118,8 @@ class Contents:
         self.logs.add(sent or stamp, level, message.name, message.msg, (message.file, message.function, message.line))
 
     def _parameters(self, stamp: int, event: Any) -> None:
+        if NodeInfo(event.node).hidden:  # such as the recorder itself
+            return
         known = {each.name: each for each in self.trees.get(event.node, ParameterTree(event.node)).parameters}
         for each in (*event.new_parameters, *event.changed_parameters):
             before: ParameterInfo | None = known.get(each.name)

@@ -60,12 +60,15 @@ def read(text: str) -> ExpectedGraph:
     except UNREADABLE as error:
         raise ValueError(f"this is not YAML: {fault_of(error)}") from None
     found = _mapping(whole, "the file", PARTS)
+    exact = found.get("exact", False)
+    if not isinstance(exact, bool):
+        raise ValueError(f"exact should be true or false, not '{exact}'")
     return ExpectedGraph(
         _names(found.get("nodes"), "nodes"),
         {_absolute_name(name): _topic(name, each) for name, each in _mapping(found.get("topics"), "topics").items()},
         _types(found.get("services"), "services"),
         _types(found.get("actions"), "actions"),
-        bool(found.get("exact", False)),
+        exact,
     )
 
 

@@ -22,9 +22,9 @@ BEGIN = 1_700_000_000
 SECOND = 10**9
 
 
-def event(value: float, *, new: bool = False) -> ParameterEvent:
+def event(value: float, *, new: bool = False, node: str = "/nav") -> ParameterEvent:
     parameters = [Parameter(name="max_speed", value=ParameterValue(type=3, double_value=value))]
-    return ParameterEvent(node="/nav", **{"new_parameters" if new else "changed_parameters": parameters})
+    return ParameterEvent(node=node, **{"new_parameters" if new else "changed_parameters": parameters})
 
 
 def odometry(second: int) -> Odometry:
@@ -48,6 +48,7 @@ def folder(tmp_path: Path) -> Path:
     for second in range(1, 11):
         add(second, "/odom", odometry(second))
     add(4, "/parameter_events", event(2.5))
+    add(4, "/parameter_events", event(3.5, node="/_recorder"))
     add(5, "/rosout", Log(stamp=Time(sec=BEGIN + 5), level=30, name="nav", msg="too fast"))
     writer.close()
     return tmp_path / "bag"
@@ -84,6 +85,7 @@ def test_log_parameter_changes_and_world_come_from_the_bag(console: OpenedBag) -
     assert [each.name for each in now.graph.topics] == ["/map", "/odom", "/parameter_events", "/rosout"]
     line = console.logs.record(0)
     assert line is not None and (line.text, line.stamp) == ("too fast", (BEGIN + 5) * SECOND)
+    assert [*now.parameters] == ["/nav"], "hidden nodes are left out"
     (change,) = console.parameters.changes()
     assert (change.node, change.name, change.old, change.new) == ("/nav", "max_speed", 1.0, 2.5)
     assert change.stamp == (BEGIN + 4) * SECOND and now.journal.end == 1 and not now.journal.undoes

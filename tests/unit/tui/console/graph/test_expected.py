@@ -93,6 +93,7 @@ def test_a_written_file_matches_the_graph_it_was_written_from() -> None:
         ("nodes: /sim", "nodes should be a list of names"),
         ("topic: {}", "'topic' in the file is unknown; expected one of nodes, topics"),
         ("topics: [/odom]", "topics should be a mapping"),
+        ("exact: maybe", "exact should be true or false, not 'maybe'"),
         ("topics: {/odom: {rte: 5}}", "'rte' in /odom is unknown"),
         ("topics: {/odom: {rate: fast}}", "'fast' at /odom should be a number"),
         ("topics: {/odom: {max_age: .inf}}", "'inf' at /odom should be a number"),
