@@ -174,7 +174,7 @@ class ActionServer(ActionEntity):
         response.accepted = handle is not None
         if handle is not None:
             response.stamp = handle._goal_info.stamp
-        self._node._ros_bus.respond(client, number, response)
+        self._respond("goal", client, number, response)
         if handle is None:
             self._debug("New goal rejected: {}", request.goal_id.uuid)
             return
@@ -191,7 +191,7 @@ class ActionServer(ActionEntity):
         if not isinstance(response, GoalResponse):
             self._logger.warning("Goal request callback did not return a GoalResponse type. Rejecting goal.")
             return None
-        if response is not GoalResponse.ACCEPT:
+        if response is not GoalResponse.ACCEPT or self.destroyed:
             return None
         info = GoalInfo(goal_id=request.goal_id, stamp=self._clock.now().to_msg())
         with self._lock:
@@ -218,7 +218,7 @@ class ActionServer(ActionEntity):
         response = self._action_type.Impl.CancelGoalService.Response()
         response.return_code = code
         response.goals_canceling = canceling
-        self._node._ros_bus.respond(client, number, response)
+        self._respond("cancel", client, number, response)
 
     def _serve_result(self, client: ClientEndpoint, number: int, request: Any) -> None:
         self._debug("Result request received for goal with ID: {}", request.goal_id.uuid)
@@ -233,7 +233,14 @@ class ActionServer(ActionEntity):
         handle._result_future.add_done_callback(functools.partial(self._send_result, client, number))
 
     def _send_result(self, client: ClientEndpoint, number: int, future: Future[Any]) -> None:
-        self._node._ros_bus.respond(client, number, future.result())
+        self._respond("result", client, number, future.result())
+
+    def _respond(self, kind: str, client: ClientEndpoint, number: int, response: object) -> None:
+        """Send a response, unless the server was destroyed during the user's coroutine that it waited for."""
+        if self.destroyed:
+            self._logger.warning(f"Failed to send {kind} response (the action server was destroyed)")
+        else:
+            self._node._ros_bus.respond(client, number, response)
 
     def notify_execute(self, goal_handle: ServerGoalHandle, execute_callback: Callable[..., object] | None) -> None:
         """Schedule a goal's execution in the node's executor, by `execute_callback` or the server's own, if any."""

@@ -9,7 +9,7 @@ from action_msgs.msg import GoalStatus, GoalStatusArray
 from action_pair import Pair, succeed
 from example_interfaces.action import Fibonacci
 from rclpy._rclpy_pybind11 import InvalidHandle, RCLError
-from rclpy.action import ActionServer, GoalResponse
+from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.qos import qos_profile_action_status_default
 from rclpy.task import Future
 from std_msgs.msg import String
@@ -213,6 +213,39 @@ def test_goals_of_a_destroyed_server_raise_invalid_handle(ros: Any) -> None:
     handle.publish_feedback(Fibonacci.Feedback())
     handle.succeed()
     assert (handle.status, handle.is_active) == (GoalStatus.STATUS_UNKNOWN, False)
+
+
+@pytest.mark.parametrize("kind", ["goal", "cancel", "result"])
+def test_server_that_is_destroyed_during_a_coroutine_sends_no_response(
+    ros: Any, capfd: pytest.CaptureFixture[str], kind: str
+) -> None:
+    gates: dict[str, Any] = {"goal": Future(), "cancel": Future(), "result": Future()}
+
+    async def accept(goal: Any) -> GoalResponse:
+        await gates["goal"]
+        return GoalResponse.ACCEPT
+
+    async def cancel(handle: Any) -> CancelResponse:
+        await gates["cancel"]
+        return CancelResponse.ACCEPT
+
+    async def execute(handle: Any) -> Any:
+        await gates["result"]
+        return Fibonacci.Result()
+
+    pair = Pair(ros, execute, goal_callback=accept, cancel_callback=cancel)
+    asked = pair.client.send_goal_async(Fibonacci.Goal())
+    ros.settle()
+    if kind != "goal":
+        gates["goal"].set_result(None)
+        handle = pair.outcome(asked)
+        asked = handle.cancel_goal_async() if kind == "cancel" else handle.get_result_async()
+        ros.settle()
+    pair.server.destroy()
+    gates[kind].set_result(None)
+    ros.settle()
+    assert not asked.done()
+    assert f"Failed to send {kind} response (the action server was destroyed)" in capfd.readouterr().err
 
 
 def test_server_is_destroyed_with_its_node(ros: Any) -> None:
