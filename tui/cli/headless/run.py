@@ -72,7 +72,9 @@ def run(options: Options) -> int:
     if not observer.complete:
         return _no_report(launches)
     if launches.died:
-        print(f"{launches.died}, so the report may not be that of a whole run; the log above says more", file=sys.stderr)
+        print(
+            f"{launches.died}, so the report may not be that of a whole run; the log above says more", file=sys.stderr
+        )
     return 1 if launches.died else 0
 
 

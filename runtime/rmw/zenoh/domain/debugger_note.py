@@ -42,9 +42,17 @@ def debugger_line(folder: str, pid: int) -> str | None:
 
 def debugger_lines(folder: str) -> Mapping[int, str]:
     """Return the lines of all stopped processes by pid."""
-    pids = [name.removesuffix(SUFFIX) for name in os.listdir(folder) if name.endswith(SUFFIX)]
+    pids = [name.removesuffix(SUFFIX) for name in names_in(folder) if name.endswith(SUFFIX)]
     found = {int(each): debugger_line(folder, int(each)) for each in pids if each.isascii() and each.isdecimal()}
     return {pid: line for pid, line in found.items() if line is not None}
+
+
+def names_in(folder: str) -> list[str]:
+    """Return the names of the files in a domain's folder; none if somebody has deleted it."""
+    try:
+        return os.listdir(folder)
+    except (FileNotFoundError, NotADirectoryError):
+        return []
 
 
 def _path(folder: str, pid: int) -> str:

@@ -15,7 +15,7 @@ from typing import NamedTuple
 from bot_console.runtime.process.unpatched import getpid
 from bot_console.runtime.process.watch.processor_time import ENDED_STATES, state_and_seconds
 from bot_console.runtime.rmw.zenoh.domain import loopback
-from bot_console.runtime.rmw.zenoh.domain.debugger_note import remove_note
+from bot_console.runtime.rmw.zenoh.domain.debugger_note import names_in, remove_note
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
 from bot_console.runtime.rmw.zenoh.settings import SCHEME
 
@@ -73,9 +73,9 @@ def own_socket(folder: str, zid: str) -> Socket:
 
 
 def sockets(folder: str) -> list[Socket]:
-    """List all sockets in a folder, including dead ones."""
+    """List all sockets in a folder, including dead ones; none if the folder was deleted, until it is made again."""
     found, ending = list[Socket](), _suffix()
-    for name in sorted(os.listdir(folder)):
+    for name in sorted(names_in(folder)):
         match = _NAME.fullmatch(name.removesuffix(ending)) if name.endswith(ending) else None
         if match:
             found.append(Socket(os.path.join(folder, name), int(match[1]), match[2]))

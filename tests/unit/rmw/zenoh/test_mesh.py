@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import shutil
 import signal
 import time
 
@@ -103,6 +104,18 @@ def test_process_whose_socket_was_deleted_is_found_again(socket_folder):
         assert eventually(lambda: len(sockets_of(socket_folder)) == 2)
         with members(1) as [late]:
             assert every_pair_talks([one, two, late])
+
+
+def test_session_whose_folder_was_deleted_knows_no_processes_until_it_is_found_again(socket_folder):
+    session = open_session(0)
+    try:
+        shutil.rmtree(os.path.join(socket_folder, "0"))
+        assert not session.processes() and not session.stopped() and not session.debugged()
+        assert session.pid_of(session.zid) is None
+        session.watch()
+        assert eventually(lambda: session.pid_of(session.zid) == os.getpid())
+    finally:
+        session.close()
 
 
 @pytest.mark.soak
