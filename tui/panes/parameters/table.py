@@ -35,7 +35,7 @@ class ParameterRows(ItemList[Row]):
     """The rows of the tree."""
 
     class Slid(Message):
-        """The slider of a parameter was clicked, at a share (0 to 1) of its range."""
+        """The slider of a parameter was clicked or dragged to a share (0 to 1) of its range."""
 
         def __init__(self, parameter: ParameterInfo, share: float) -> None:
             super().__init__()
@@ -59,6 +59,10 @@ class ParameterRows(ItemList[Row]):
         self.split = 0
         """The number of cells by which the user has moved the edge between names and values."""
         self._dragged = False
+        self._sliding: tuple[ParameterInfo, int, int] | None = None
+        """The parameter whose slider is being dragged, and the slider's first cell and its width."""
+        self._slid = False
+        """Whether the last press was on a slider."""
 
     def move_split(self, cells: int) -> None:
         """Move the edge between names and values, unless it is at its limit."""
@@ -69,10 +73,12 @@ class ParameterRows(ItemList[Row]):
             self.refresh()
 
     def on_mouse_down(self, event: MouseDown) -> None:
-        """Start dragging the edge between names and values."""
+        """Start dragging the edge between names and values, or a slider."""
+        self._sliding = self._slider_at(event.x, event.y + self.scroll_offset.y)
+        self._slid = self._sliding is not None
         edge = MARKS_CELLS + columns(self._measures, self.across, self.split).name
         self._dragged = edge <= event.x < edge + GAP_CELLS and 0 <= event.y + self.scroll_offset.y < self.row_count()
-        if self._dragged:
+        if self._dragged or self._slid:
             self.capture_mouse()
 
     def on_mouse_move(self, event: MouseMove) -> None:
@@ -82,8 +88,11 @@ class ParameterRows(ItemList[Row]):
             self.move_split(event.x - edge)
 
     def on_mouse_up(self, event: MouseUp) -> None:
-        """Stop dragging the edge."""
+        """Stop dragging the edge; set the value at which a slider is released, wherever the mouse has strayed to."""
         self.release_mouse()
+        if self._sliding:
+            (parameter, begin, cells), self._sliding = self._sliding, None
+            self.post_message(self.Slid(parameter, min(max((event.x - begin) / (cells - 1), 0.0), 1.0)))
 
     @property
     def key_at_cursor(self) -> tuple[str, str, str] | None:
@@ -179,27 +188,31 @@ class ParameterRows(ItemList[Row]):
         return Segment(text, self.row_style("dim") if parameter.read_only else None)
 
     def on_click(self, event: Click) -> None:
-        """Select the clicked row; set the value on its slider; post `Pressed` if the row was selected already."""
+        """Select the clicked row; post `Pressed` if it was selected already. A press on a slider is no click."""
         event.prevent_default()  # the handler of other lists
         index = event.y + self.scroll_offset.y
-        if not 0 <= index < self.row_count():
+        if self._slid or not 0 <= index < self.row_count():
             return
         chosen, row = index == self.cursor, self.rows[index]
         self.choose(index)
         if self._dragged:
             return
-        if row.parameter is None:
-            if chosen or event.x < 2 * row.depth + 2:
-                self.post_message(self.Pressed(row))
-            return
+        if chosen or (row.parameter is None and event.x < 2 * row.depth + 2):
+            self.post_message(self.Pressed(row))
+
+    def _slider_at(self, x: int, index: int) -> tuple[ParameterInfo, int, int] | None:
+        """The parameter whose slider is at a place, with the slider's first cell and its width; selects its row."""
+        row = self.rows[index] if 0 <= index < self.row_count() else None
+        if row is None or row.parameter is None or row.parameter.read_only:
+            return None
         own = columns(self._measures, self.across, self.split)
         taken = name_column(row, own, self.across, self.split)
         begin = MARKS_CELLS + taken + GAP_CELLS + own.value + GAP_CELLS
-        slides = own.bar and taken == own.name and not row.parameter.read_only
-        if slides and slider_text(row.parameter, own.bar) and begin <= event.x < begin + own.bar:
-            self.post_message(self.Slid(row.parameter, (event.x - begin) / (own.bar - 1)))
-        elif chosen:
-            self.post_message(self.Pressed(row))
+        slides = own.bar > 1 and taken == own.name and bool(slider_text(row.parameter, own.bar))
+        if not slides or not begin <= x < begin + own.bar:
+            return None
+        self.choose(index)
+        return row.parameter, begin, own.bar
 
 
 def slider_text(parameter: ParameterInfo, cells: int) -> str:

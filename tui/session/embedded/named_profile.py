@@ -56,6 +56,10 @@ def named_profile(
     """
     if word in bundled_names():
         return NamedProfile(word)
+    if "://" in word:
+        raise NoProfileError(
+            f"{word} is an address, not a profile; config_file:={word} starts the robot with its values"
+        )
     if is_path(word):
         path = expanded_path(word)
         if not os.path.isfile(path):  # False for a name that is too long, for which `Path` raises

@@ -24,7 +24,9 @@ SECOND = 10**9
 
 def event(value: float, *, new: bool = False, node: str = "/nav") -> ParameterEvent:
     parameters = [Parameter(name="max_speed", value=ParameterValue(type=3, double_value=value))]
-    return ParameterEvent(node=node, **{"new_parameters" if new else "changed_parameters": parameters})
+    return ParameterEvent(
+        node=node, new_parameters=parameters if new else [], changed_parameters=[] if new else parameters
+    )
 
 
 def odometry(second: int) -> Odometry:
