@@ -87,7 +87,7 @@ def test_launch_profile_runs_its_launch_file_and_given_arguments_win(place: Path
     [
         (["fast"], "there is no profile 'fast'; profiles: competition, indoor, outdoor, slow, warehouse"),
         (["./fast.yaml"], "there is no file ./fast.yaml"),
-        (["https://config.example/robot.yaml"], "https://config.example/robot.yaml is an address, not a profile; config_file:=https"),
+        (["https://config.example/robot.yaml"], "https://config.example/robot.yaml is an address"),
         (["broken.yaml"], "broken.yaml cannot be used as a profile: line 2: not YAML"),
     ],
 )
