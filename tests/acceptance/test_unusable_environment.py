@@ -105,12 +105,15 @@ def test_character_missing_in_terminal_encoding_is_not_an_error(tmp_path: Path) 
     [
         ["run", "x.py"],
         *(pytest.param(each, marks=pytest.mark.slow) for each in (["ros2", "pkg", "list"], ["launch", "x.launch.py"])),
+        *(pytest.param(each, marks=pytest.mark.slow) for each in (["launch", "PATH"], ["up"], ["setup", "editor"])),
     ],
     ids=" ".join,
 )
 def test_deleted_folder_is_reported(words: list[str], tmp_path: Path) -> None:
     there = tmp_path / "gone"
     there.mkdir()
+    (tmp_path / "there.launch.py").touch()
+    words = [str(tmp_path / "there.launch.py") if each == "PATH" else each for each in words]
     program = "import os, sys; os.rmdir(os.getcwd()); from bot_console.tui.cli.main import program; program()"
     environment = {**os.environ, "PYTHONPATH": os.pathsep.join(each for each in sys.path if each)}
     done = subprocess.run(

@@ -91,6 +91,7 @@ def up(words: Sequence[str]) -> int:
     if problem := no_robot_here():
         print(problem, file=sys.stderr)
         return 1
+    os.getcwd()  # raises in a folder that was deleted
     report_left_router()
     alone = take_part() or _unreachable()
     options, problem = with_launch_file(options)

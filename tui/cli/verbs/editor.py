@@ -22,7 +22,10 @@ MAX_FILE_BYTES = 10_000_000
 
 
 def run(words: Sequence[str]) -> int:
-    """Write both files; if one of them cannot be used or written, print why and return 1."""
+    """Write both files; if one of them cannot be used or written, print why and return 1.
+
+    Raises `FileNotFoundError` if the working directory was deleted.
+    """
     parser = argparse.ArgumentParser(
         "bot-console setup editor",
         description=f"Write or complete {PYRIGHT} and {VSCODE} of a workspace, so that editors and pyright find "
@@ -33,6 +36,7 @@ def run(words: Sequence[str]) -> int:
         "folder", nargs="?", type=Path, default=Path("."), metavar="DIR", help="workspace (default: this folder)"
     )
     folder: Path = parser.parse_args(words).folder
+    os.getcwd()
     if not folder.is_dir():
         parser.error(f"there is no folder {folder}")
     try:

@@ -22,11 +22,13 @@ def prefork(words: Sequence[str], *, from_here: bool = False) -> None:
     """Start the fork server early for a `launch` with these arguments, so that it warms up while the launch file is
     read.
 
-    With `from_here`, in a program that has just started, it is forked from this process if possible.
+    With `from_here`, in a program that has just started, it is forked from this process if possible. Raises
+    `FileNotFoundError` if the working directory was deleted, in which no program could be started.
     """
     places = [each for each in words if not each.startswith("-") and ":=" not in each]
     names_file = len(places) > 1 or any(map(os.path.isfile, places))
     if CAN_FORK and is_in_range() and names_file and not STARTS_NOTHING.intersection(words):
+        os.getcwd()
         if from_here and has_one_thread():
             import_shared()
             fork_off_server()
