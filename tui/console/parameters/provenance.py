@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any, cast
 
-from bot_console.tui.console.model import ParameterInfo, Value, same
-from bot_console.tui.console.parameters.origin_text import START
+from bot_console.tui.console.model import ChangeSource, ParameterInfo, Value, same
+from bot_console.tui.console.parameters.origin_text import SET_BY, START
 
 COMMAND_LINE = "-p"
 """A node reports this as the source of a value from its command line; other sources are file paths or text."""
@@ -76,6 +76,8 @@ class Provenance:
     def _origin(self, key: Key, declared: Declaration | None, parameter: ParameterInfo) -> str:
         if declared is None:
             return self._given.get(key, START)
+        if declared.start is not None and not same(parameter.value, declared.start):
+            return f"{SET_BY[ChangeSource.OTHER]} since the start"  # before this console saw it
         source = declared.override
         if not source:
             return "declared value" if same(parameter.value, declared.default) else START

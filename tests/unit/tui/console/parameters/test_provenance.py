@@ -53,6 +53,14 @@ def test_start_values_are_known_if_they_were_reported() -> None:
     assert provenance.starts() == {("/n", "speed"): 2.0, ("/n", "gains"): (1.0, 2.0)}
 
 
+def test_a_value_set_before_the_console_saw_it_does_not_come_from_what_the_node_started_with() -> None:
+    provenance = Provenance(lambda path: PROFILES.get(path, ""))
+    declared = ["speed", 1.0, "/n.py:1", "/profiles/indoor.yaml", 2.0]
+    provenance.learn("declared", {"node": "/n", "parameters": [declared]})
+    assert provenance.applied(first_snapshot(2.0)).origin == "profile indoor"
+    assert provenance.applied(first_snapshot(3.0)).origin == "set by another program or the node since the start"
+
+
 def test_an_unreported_value_stays_a_start_value() -> None:
     assert Provenance().applied(first_snapshot()) == first_snapshot()
     assert Provenance().learn("notice", {"text": "x"}) == ""
