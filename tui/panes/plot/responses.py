@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -48,7 +49,8 @@ class Responses:
         width, height = size
         found = self.of(curves[chosen], window) if chosen < len(curves) else []
         if not found:
-            return [()] * ((height - 1) // 2) + [((HOW[:width].center(width), "dim"),)]
+            how = textwrap.wrap(HOW, max(1, width))
+            return [()] * max(0, (height - len(how)) // 2) + [((each.center(width), "dim"),) for each in how]
         drawn = [Curve(each.name, at, each.times, each.values) for at, each in enumerate(found)]
         axes = Axes(0.0, max(min(window, max(float(each.times[-1]) for each in found)), 1e-3), since=True)
         lines = framed_plot(drawn, (), axes, width, max(4, height - len(found)))

@@ -7,6 +7,7 @@ import math
 import numpy as np
 import pytest
 from bot_console.tui.console.model import Change, ChangeSource
+from bot_console.tui.panes.plot.responses import Responses
 from bot_console.tui.panes.plot.step_response import figures, figures_text, moments, response, score
 
 TIMES = np.linspace(-1.0, 20.0, 21_001)
@@ -73,3 +74,10 @@ def test_latest_response_of_each_set_is_used() -> None:
         for at, name in enumerate(["set B", "", "set A", "set B"])
     ]
     assert moments(changes) == {"set A": 2, "set B": 3}
+
+
+@pytest.mark.parametrize("width", [40, 98, 200])
+def test_what_to_do_for_responses_is_shown_in_full(width: int) -> None:
+    lines = Responses(None).draw((), 0, 30.0, (width, 20))  # type: ignore[arg-type] -- without curves, nothing is read
+    shown = ["".join(text for text, _ in line) for line in lines]
+    assert max(map(len, shown)) <= width and "A again sends set A." in " ".join(" ".join(shown).split())
