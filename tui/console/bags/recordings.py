@@ -27,6 +27,9 @@ DEFINITION_TIMEOUT_S = 3.0
 """Seconds that a topic waits for the definition of its type, which the Topics pane requests from the nodes; then it is
 recorded without one.
 """
+NOT_KEPT = (
+    "only the console that started the system keeps the last minutes (setting keep_minutes); R records from now on"
+)
 CLOSE_TIMEOUT_S = 3.0
 """Seconds that finishing a bag may take when the console ends."""
 
@@ -104,7 +107,7 @@ class Recordings:
     def keep(self, folder: str) -> Future[Answer]:
         """Save the last minutes from memory as a bag."""
         if self._buffer is None:
-            return done(Answer(False, "the last minutes are not kept in memory (setting keep_minutes)"))
+            return done(Answer(False, NOT_KEPT))
         return self._buffer.keep(str(typed_path(folder).absolute()))
 
     def close(self) -> None:

@@ -179,3 +179,8 @@ def test_recording_in_simulated_time_ends_in_order_after_a_shutdown(tmp_path: Pa
     made.close()
     bag.close()
     assert texts(tmp_path / "bag") == ["a"]
+
+
+def test_a_console_that_keeps_no_last_minutes_says_which_one_does_and_what_can_be_done_here() -> None:
+    answer = Recordings().keep("bag").result(0)
+    assert not answer.ok and "the console that started the system" in answer.text and "R records" in answer.text
