@@ -80,8 +80,9 @@ def key_of_another_node(node: str, key: str) -> str:
     return f"{node} gets no parameter of this file: its key '{key}' does not mean it; did you mean '{node}'?"
 
 
-def returns_no_description(returned: str) -> str:
-    """Return what the function of a launch file has to return, given what it returns."""
+def returns_no_description(description: object) -> str:
+    """Return what the function of a launch file has to return, given what it has returned."""
+    returned = "nothing" if description is None else f"a {type(description).__name__}"
     return f"generate_launch_description() returns {returned}: {RETURN_DESCRIPTION}"
 
 

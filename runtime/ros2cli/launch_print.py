@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 import sys
-from collections.abc import Iterator, Mapping
+from collections.abc import Generator, Iterator, Mapping
+from contextlib import contextmanager
 from typing import Any
 
+from bot_console.runtime.programs.hints import returns_no_description
+from launch.launch_description import LaunchDescription
 from launch.launch_description_sources import get_launch_description_from_any_launch_file
 from launch.launch_introspector import LaunchIntrospector
 
@@ -41,11 +44,26 @@ def _print(lines: Iterator[str]) -> int:
 
 
 def _tree(path: str) -> Iterator[str]:
-    yield LaunchIntrospector().format_launch_description(get_launch_description_from_any_launch_file(path))
+    description = get_launch_description_from_any_launch_file(path)
+    with _explained(description):
+        yield LaunchIntrospector().format_launch_description(description)
 
 
 def _arguments(path: str) -> Iterator[str]:
-    yield from argument_lines(get_launch_description_from_any_launch_file(path))
+    description = get_launch_description_from_any_launch_file(path)
+    with _explained(description):
+        yield from argument_lines(description)
+
+
+@contextmanager
+def _explained(description: object) -> Generator[None]:
+    """Add to an `AttributeError` what a launch file has to return, if it has returned something else."""
+    try:
+        yield
+    except AttributeError as error:
+        if isinstance(description, LaunchDescription):
+            raise
+        raise AttributeError(f"{error}: {returns_no_description(description)}") from None
 
 
 def argument_lines(description: Any) -> Iterator[str]:

@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources.python_launch_file_utilities import (
     get_launch_description_from_python_launch_file,
+    require_description,
 )
 
 if TYPE_CHECKING:
@@ -21,4 +22,6 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
         super().__init__(None, launch_file_path, "interpreted python launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        return get_launch_description_from_python_launch_file(location)
+        description = get_launch_description_from_python_launch_file(location)
+        require_description(description, location)
+        return description

@@ -48,10 +48,18 @@ def _generate(python_launch_file_path: str) -> LaunchDescription:
         raise InvalidPythonLaunchFileError(
             f"launch file at '{python_launch_file_path}' does not contain the required function '{FUNCTION}()'"
         )
-    description = getattr(module, FUNCTION)()
-    if not hasattr(description, USED):
-        # Upstream fails where it uses the method, with the first half of this message.
-        kind = type(description).__name__
-        returned = returns_no_description("nothing" if description is None else f"a {kind}")
-        raise InvalidPythonLaunchFileError(f"'{kind}' object has no attribute '{USED}': {returned}")
-    return description
+    return getattr(module, FUNCTION)()
+
+
+def require_description(description: object, path: str) -> None:
+    """Raise `InvalidPythonLaunchFileError` if what a launch file has returned cannot be launched.
+
+    Upstream fails where it uses the method, with the first half of this message.
+    """
+    if hasattr(description, USED):
+        return
+    kind = type(description).__name__
+    hint = returns_no_description(description)
+    error = InvalidPythonLaunchFileError(f"'{kind}' object has no attribute '{USED}': {hint}")
+    report_place(error, path)
+    raise error
