@@ -29,6 +29,8 @@ from textual.containers import Container
 
 POLL_S = 0.5
 """Seconds between two refreshes."""
+MAX_KEY_CELLS = 30
+"""Maximum width (cells) of the column of keys; a longer key moves only its own value."""
 MIN_SIDE_BY_SIDE_CELLS = 110
 """Minimum width (cells) at which the list and the details are shown side by side."""
 EMPTY = Placeholder(
@@ -191,7 +193,7 @@ def sections(status: Status, now: float) -> list[Section]:
         head.append(f"silent for {counted(age, 'second')}; it was {status.level.name}")
     if status.hardware:
         head.append(f"hardware {status.hardware}")
-    wide = max((cell_len(key) for key, _ in status.values), default=0)
+    wide = min(max((cell_len(key) for key, _ in status.values), default=0), MAX_KEY_CELLS)
     values = [f"{key}{' ' * (wide - cell_len(key))}  {value}" for key, value in status.values]
     reported = [
         f"{clock_text(each.stamp)[:8]}  {each.level.name:<5}  {each.message}" for each in reversed(status.history)

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from bot_console.tui.console.filter_syntax import parse
-from bot_console.tui.console.sensors.diagnostic_status import Level
+from bot_console.tui.console.sensors.diagnostic_status import Level, Status
+from bot_console.tui.panes.diagnostics.pane import MAX_KEY_CELLS, sections
 from bot_console.tui.panes.diagnostics.tree import Row, matches, rows
 from fakes.sensors import status
 from hypothesis import given
@@ -64,3 +65,8 @@ def test_every_name_has_its_row_and_counts_add_up(names: list[str]) -> None:
     kept = {"/".join(part for part in each.split("/") if part) or each for each in names}
     assert sum(each.status is not None for each in found) == len(kept)
     assert sum(each.count + (each.status is not None) for each in found if not each.depth) == len(kept)
+
+
+def test_a_long_key_does_not_push_the_values_of_other_keys_off_the_screen() -> None:
+    found = sections(Status("arm", Level.OK, values=(("k" * 200, "far"), ("load", "near"))), NOW)
+    assert [line.index("near") for line in found[1][1] if "near" in line] == [MAX_KEY_CELLS + 2]
