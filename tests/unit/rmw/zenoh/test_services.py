@@ -48,13 +48,13 @@ def test_corrupted_request_is_not_served(notices):
 
 
 def test_request_to_another_service_is_not_served(notices):
-    service = ServiceEndpoint(NodeId("n", "/"), "/halt", TYPE, lambda: None, AddTwoInts)
+    service = ServiceEndpoint(NodeId("n", "/"), "/brake", TYPE, lambda: None, AddTwoInts)
     served = RequestReceiver(SESSION, service, "key")
     sent = serialize_message(AddTwoInts.Request(a=1, b=2))
     astray = Request(sent, pack(1, 5, GID, sent, key_hash_of("another key")))
     served.on_query(astray)
     assert astray.dropped and not service.queue
-    assert notices == [f"a request to '/halt' was dropped: {REPORTED}"]
+    assert notices == [f"a request to '/brake' was dropped: {REPORTED}"]
 
 
 def test_corrupted_response_is_not_accepted(notices):
