@@ -19,8 +19,6 @@ class AnyLaunchDescriptionSource(LaunchDescriptionSource):
         super().__init__(None, launch_file_path, "interpreted launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        from launch.launch_description_sources.python_launch_file_utilities import require_description
+        from launch.launch_description_sources.python_launch_file_utilities import checked_description
 
-        description = get_launch_description_from_any_launch_file(location)
-        require_description(description, location)
-        return description
+        return checked_description(get_launch_description_from_any_launch_file(location), location)

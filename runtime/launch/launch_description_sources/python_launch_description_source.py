@@ -6,8 +6,8 @@ from typing import TYPE_CHECKING
 
 from launch.launch_description_source import LaunchDescriptionSource
 from launch.launch_description_sources.python_launch_file_utilities import (
+    checked_description,
     get_launch_description_from_python_launch_file,
-    require_description,
 )
 
 if TYPE_CHECKING:
@@ -22,6 +22,4 @@ class PythonLaunchDescriptionSource(LaunchDescriptionSource):
         super().__init__(None, launch_file_path, "interpreted python launch file")
 
     def _get_launch_description(self, location: str) -> LaunchDescription:
-        description = get_launch_description_from_python_launch_file(location)
-        require_description(description, location)
-        return description
+        return checked_description(get_launch_description_from_python_launch_file(location), location)

@@ -51,13 +51,13 @@ def _generate(python_launch_file_path: str) -> LaunchDescription:
     return getattr(module, FUNCTION)()
 
 
-def require_description(description: object, path: str) -> None:
-    """Raise `InvalidPythonLaunchFileError` if what a launch file has returned cannot be launched.
+def checked_description(description: LaunchDescription, path: str) -> LaunchDescription:
+    """Return what a launch file has returned; raises `InvalidPythonLaunchFileError` if it cannot be launched.
 
     Upstream fails where it uses the method, with the first half of this message.
     """
     if hasattr(description, USED):
-        return
+        return description
     kind = type(description).__name__
     hint = returns_no_description(description)
     error = InvalidPythonLaunchFileError(f"'{kind}' object has no attribute '{USED}': {hint}")
