@@ -11,6 +11,7 @@ from collections.abc import Mapping
 
 from bot_console.runtime.process.unpatched import getpid
 from bot_console.runtime.process.watch.debugger import line_in_debugger
+from bot_console.runtime.rmw.zenoh.domain.folder import names_in
 
 SUFFIX = ".debugger"
 
@@ -45,14 +46,6 @@ def debugger_lines(folder: str) -> Mapping[int, str]:
     pids = [name.removesuffix(SUFFIX) for name in names_in(folder) if name.endswith(SUFFIX)]
     found = {int(each): debugger_line(folder, int(each)) for each in pids if each.isascii() and each.isdecimal()}
     return {pid: line for pid, line in found.items() if line is not None}
-
-
-def names_in(folder: str) -> list[str]:
-    """Return the names of the files in a domain's folder; none if somebody has deleted it."""
-    try:
-        return os.listdir(folder)
-    except (FileNotFoundError, NotADirectoryError):
-        return []
 
 
 def _path(folder: str, pid: int) -> str:

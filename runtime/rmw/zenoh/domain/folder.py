@@ -33,6 +33,14 @@ def base_folder() -> str:
     return os.path.join(_temporary_folder(), f"bot-console-{_user()}")
 
 
+def names_in(folder: str) -> list[str]:
+    """Return the names of the files in a domain's folder; none if somebody has deleted it."""
+    try:
+        return os.listdir(folder)
+    except (FileNotFoundError, NotADirectoryError):
+        return []
+
+
 def domain_folder(domain: int) -> str:
     """Return the folder of a domain, created with mode 0700 if missing.
 

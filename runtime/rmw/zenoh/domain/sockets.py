@@ -15,8 +15,9 @@ from typing import NamedTuple
 from bot_console.runtime.process.unpatched import getpid
 from bot_console.runtime.process.watch.processor_time import ENDED_STATES, state_and_seconds
 from bot_console.runtime.rmw.zenoh.domain import loopback
-from bot_console.runtime.rmw.zenoh.domain.debugger_note import names_in, remove_note
+from bot_console.runtime.rmw.zenoh.domain.debugger_note import remove_note
 from bot_console.runtime.rmw.zenoh.domain.file_lock import open_lock, try_lock
+from bot_console.runtime.rmw.zenoh.domain.folder import names_in
 from bot_console.runtime.rmw.zenoh.settings import SCHEME
 
 _NAME = re.compile(r"(\d+)\.([0-9a-f]{8})")

@@ -27,7 +27,6 @@ one message. If a longer message is cut in a fragment before its last, the next 
 foreign bytes happen to end with the fragment; Zenoh drops such a message by its fragment numbers.
 """
 _OLD = b"\x0fsequence_number"
-DAMAGED = "it is not what was sent here: the link to its sender broke during transmission"
 
 Attachment = tuple[int, int, bytes]
 """Number (counted from 1 per publisher or client), time of sending (ns since 1970), and the sender's id."""
@@ -63,7 +62,7 @@ def unpack(data: bytes | None, payload: bytes | None = None, key_hash: int = 0) 
         mark, seal = _SEAL.unpack_from(data, _LAYOUT.size)
         if mark == _MARK:
             if payload is not None and seal != _hash(unsealed, payload, key_hash):
-                raise FormatError(DAMAGED)
+                raise FormatError("it is not what was sent here: the link to its sender broke during transmission")
             return _FIELDS.unpack(unsealed)
     if size != _LAYOUT.size or data[16] != GID_BYTES:
         if data.startswith(_OLD):
