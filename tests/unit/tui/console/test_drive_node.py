@@ -7,7 +7,6 @@ from collections.abc import Iterator
 
 import pytest
 from bot_console.tui.console.graph.watch import GraphWatch
-from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
 from bot_console.tui.widgets.status_bar import status_text
 from bot_console_robot.safety.emergency_stop import ARBITER, BASE, EmergencyStop
@@ -20,16 +19,11 @@ from rigs import TIMEOUT_S, until
 
 
 @pytest.fixture
-def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
+def console(shared_context: Context) -> Iterator[RosConsole]:
     """A console connected to a base with a lock."""
-    domain = unused_domain()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(domain))
-    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
-    context = Context()
-    context.init(["test"], domain_id=domain)
-    node = Node("simulator", context=context)
+    node = Node("simulator", context=shared_context)
     EmergencyStop(node, Clock(clock_type=ClockType.STEADY_TIME), BASE, ARBITER, lambda: None)
-    executor = SingleThreadedExecutor(context=context)
+    executor = SingleThreadedExecutor(context=shared_context)
     executor.add_node(node)
     spinning = threading.Thread(target=executor.spin, daemon=True)
     spinning.start()
@@ -41,7 +35,6 @@ def console(monkeypatch: pytest.MonkeyPatch) -> Iterator[RosConsole]:
     executor.shutdown()
     spinning.join(TIMEOUT_S)
     node.destroy_node()
-    context.try_shutdown()
 
 
 def test_stop_and_release_are_acknowledged_during_a_long_graph_poll(

@@ -7,11 +7,8 @@ from collections.abc import Iterator
 from typing import Any
 
 import pytest
-import rclpy
 from bot_console.tui.console.graph.lifecycle_states import TRANSITIONS
-from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
-from domains import unused_domain
 from rclpy.context import Context
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.lifecycle import LifecycleNode, LifecycleState, TransitionCallbackReturn
@@ -35,20 +32,15 @@ class Camera(LifecycleNode):
 
 
 @pytest.fixture
-def camera(monkeypatch: pytest.MonkeyPatch) -> Iterator[Camera]:
-    number = unused_domain()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
-    context = Context()
-    rclpy.init(args=[], context=context, domain_id=number)
-    node = Camera("camera", context=context)
-    executor = SingleThreadedExecutor(context=context)
+def camera(shared_context: Context) -> Iterator[Camera]:
+    node = Camera("camera", context=shared_context)
+    executor = SingleThreadedExecutor(context=shared_context)
     executor.add_node(node)
     thread = threading.Thread(target=executor.spin, daemon=True)
     thread.start()
     yield node
     executor.shutdown()
-    context.shutdown()
+    shared_context.shutdown()
     thread.join(TIMEOUT_S)
 
 

@@ -5,11 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 import pytest
-import rclpy
 from bot_console.tui.console.model import Endpoint
-from bot_console.tui.console.robot import robot_drive
 from bot_console.tui.console.ros_console import RosConsole
-from domains import unused_domain
 from rclpy.context import Context
 from rclpy.node import Node
 from rclpy.qos import DurabilityPolicy, QoSProfile, ReliabilityPolicy
@@ -22,15 +19,9 @@ PATH, RATE = "/gear/data", "rate(/gear)"
 
 
 @pytest.fixture
-def gearbox(monkeypatch: pytest.MonkeyPatch) -> Iterator[Node]:
+def gearbox(shared_context: Context) -> Node:
     """A node that publishes its gear when it changes, and never twice; it is not spun."""
-    number = unused_domain()
-    monkeypatch.setenv("ROS_DOMAIN_ID", str(number))
-    monkeypatch.setattr(robot_drive, "LAST_ZERO_TIMEOUT_S", 0.0)
-    context = Context()
-    rclpy.init(args=[], context=context, domain_id=number)
-    yield rclpy.create_node("gearbox", context=context)
-    context.shutdown()
+    return Node("gearbox", context=shared_context)
 
 
 @pytest.fixture
